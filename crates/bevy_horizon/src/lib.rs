@@ -1,0 +1,79 @@
+//! Ray-marched implicit landscapes for Bevy.
+//!
+//! Spawn a [`Terrain`](world::Terrain), put a [`HorizonCamera`](camera::HorizonCamera) on a `Camera3d`, and endless
+//! ground appears in the main view, with depth: meshes and ground hide each other. The same function answers on the CPU
+//! at once, through [`HorizonQuery`](query::HorizonQuery).
+//!
+//! ```no_run
+//! use bevy::prelude::*;
+//! use bevy_horizon::prelude::*;
+//!
+//! fn setup(mut commands: Commands) {
+//!     commands.spawn(Terrain::default());
+//!     commands.spawn(Atmosphere::default());
+//! #   #[cfg(feature = "render")]
+//!     commands.spawn((Camera3d::default(), HorizonCamera::default(), Transform::from_xyz(0.0, 500.0, 0.0)));
+//! }
+//! ```
+//!
+//! Data flows one way: components ([`world`], [`camera`]) → compiled fields → extraction → caches on the device → passes
+//! of the view. Nothing is read back. Without the default feature `render`, worlds load ([`scene`]) and queries answer.
+#![deny(missing_docs)]
+
+#[cfg(feature = "render")]
+pub mod camera;
+pub mod query;
+#[cfg(feature = "render")]
+pub mod render;
+pub mod scene;
+pub mod world;
+
+use bevy::app::PluginGroupBuilder;
+use bevy::prelude::*;
+
+/// What a game needs.
+pub mod prelude {
+    #[cfg(feature = "render")]
+    pub use crate::camera::{DebugView, HorizonCamera};
+    pub use crate::query::{GroundHit, HorizonQuery};
+    #[cfg(feature = "render")]
+    pub use crate::render::ready::{WorldProgress, WorldReady};
+    pub use crate::scene::{HorizonWorld, WorldFile};
+    pub use crate::world::{Atmosphere, Sun, Terrain, TerrainMaterial, WorldOrigin};
+    pub use crate::{HorizonPlugins, HorizonSystems};
+    pub use horizon_field::{Field, Place};
+}
+
+/// Everything. Parts can be disabled: `HorizonPlugins.build().disable::<HorizonSkyPlugin>()`.
+pub struct HorizonPlugins;
+
+impl PluginGroup for HorizonPlugins {
+    fn build(self) -> PluginGroupBuilder {
+        let group = PluginGroupBuilder::start::<Self>().add(HorizonWorldPlugin).add(scene::HorizonScenePlugin);
+        #[cfg(feature = "render")]
+        let group = group.add(render::HorizonRenderPlugin).add(render::HorizonSkyPlugin);
+        group
+    }
+}
+
+/// The order of this crate's systems in the main world.
+#[derive(SystemSet, Clone, Debug, PartialEq, Eq, Hash)]
+pub enum HorizonSystems {
+    /// World files are put into components. In `PreUpdate`.
+    Load,
+    /// Changed terrain is checked and compiled. In `PostUpdate`.
+    Compile,
+}
+
+/// What the world is, and the questions that it answers. Needs no renderer.
+pub struct HorizonWorldPlugin;
+
+impl Plugin for HorizonWorldPlugin {
+    fn build(&self, app: &mut App) {
+        app.init_resource::<world::WorldOrigin>()
+            .register_type::<world::Terrain>()
+            .register_type::<world::Atmosphere>()
+            .add_message::<world::TerrainRejected>()
+            .add_systems(PostUpdate, world::compile_terrain.in_set(HorizonSystems::Compile));
+    }
+}

@@ -1,0 +1,153 @@
+//! Questions that the world answers on the CPU, in the same frame, without asking the device.
+
+use bevy::ecs::system::SystemParam;
+use bevy::prelude::*;
+use horizon_field::field::Anchors;
+use horizon_field::march::{Anchored, Cast, Counts, Ray, Tolerance, cast};
+use horizon_field::{CELL, Compiled, Place};
+
+use crate::world::{CompiledTerrain, WorldOrigin};
+
+/// Asks the ground: height, normal, slope, ray cast. Positions are Bevy's, in metres; the answer is that of the full
+/// field with all its octaves, exact to f64 wherever in the world [`WorldOrigin`] stands.
+///
+/// ```
+/// # use bevy::prelude::*;
+/// # use bevy_horizon::prelude::*;
+/// fn stand_on_ground(world: HorizonQuery, mut walkers: Query<&mut Transform>) {
+///     for mut walker in &mut walkers {
+///         if let Some(height) = world.height(walker.translation) {
+///             walker.translation.y = height;
+///         }
+///     }
+/// }
+/// ```
+///
+/// A terrain answers from the frame after it was spawned. Where there are several, the first one answers: ask
+/// [`HorizonQuery::ground`] for one of them.
+#[derive(SystemParam)]
+pub struct HorizonQuery<'w, 's> {
+    terrains: Query<'w, 's, (Entity, &'static CompiledTerrain, &'static GlobalTransform)>,
+    origin: Res<'w, WorldOrigin>,
+}
+
+/// Where a ray meets the ground.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GroundHit {
+    /// The terrain.
+    pub entity: Entity,
+    /// Distance along the ray, in metres; 0 where the ray starts under the ground.
+    pub distance: f32,
+    /// The point, in Bevy's coordinates.
+    pub position: Vec3,
+    /// The ground's unit normal.
+    pub normal: Vec3,
+}
+
+/// One terrain, anchored at the [`WorldOrigin`]: for questions by the thousand.
+pub struct Ground<'a> {
+    entity: Entity,
+    compiled: &'a Compiled<2>,
+    anchors: Anchors<2>,
+    anchor: Place,
+    /// Of the terrain, in Bevy's coordinates.
+    translation: [f64; 3],
+    /// Height of Bevy's y = 0 over the field's.
+    datum: f64,
+}
+
+impl HorizonQuery<'_, '_> {
+    /// The terrain of an entity, or the first one.
+    pub fn ground(&self, entity: Option<Entity>) -> Option<Ground<'_>> {
+        let (entity, compiled, transform) = match entity {
+            Some(entity) => self.terrains.get(entity).ok()?,
+            None => self.terrains.iter().next()?,
+        };
+        let translation = transform.translation().to_array().map(f64::from);
+        let anchor = self.origin.0;
+        let compiled = compiled.height();
+        Some(Ground {
+            entity,
+            compiled,
+            anchors: compiled.anchor(&anchor),
+            datum: anchor.cell[1] as f64 * CELL + anchor.offset[1] - translation[1],
+            anchor,
+            translation,
+        })
+    }
+
+    /// The ground's height under or over a position, in Bevy's coordinates; `None` without a terrain.
+    pub fn height(&self, position: Vec3) -> Option<f32> {
+        Some(self.ground(None)?.height(position))
+    }
+
+    /// The ground's heights at many positions; empty without a terrain.
+    pub fn heights(&self, positions: &[Vec3]) -> Vec<f32> {
+        self.ground(None).map_or_else(Vec::new, |ground| positions.iter().map(|p| ground.height(*p)).collect())
+    }
+
+    /// The ground's unit normal at a position; `None` without a terrain.
+    pub fn normal(&self, position: Vec3) -> Option<Vec3> {
+        Some(self.ground(None)?.normal(position))
+    }
+
+    /// The ground's slope at a position, as the tangent of its angle; `None` without a terrain.
+    pub fn slope(&self, position: Vec3) -> Option<f32> {
+        Some(self.ground(None)?.slope(position))
+    }
+
+    /// Where a ray first meets the ground, certified: no ridge is stepped over. `None` where it does not within
+    /// `max_distance` metres, where a number is not finite, or without a terrain.
+    pub fn ray_cast(&self, origin: Vec3, direction: Dir3, max_distance: f32) -> Option<GroundHit> {
+        self.ground(None)?.ray_cast(origin, direction, max_distance)
+    }
+
+    /// Many ray casts; the answers are in the rays' order.
+    pub fn ray_casts(&self, rays: &[(Vec3, Dir3)], max_distance: f32) -> Vec<Option<GroundHit>> {
+        let Some(ground) = self.ground(None) else { return vec![None; rays.len()] };
+        rays.iter().map(|(origin, direction)| ground.ray_cast(*origin, *direction, max_distance)).collect()
+    }
+}
+
+impl Ground<'_> {
+    fn local(&self, position: Vec3) -> [f64; 2] {
+        [f64::from(position.x) - self.translation[0], f64::from(position.z) - self.translation[2]]
+    }
+
+    /// The ground's height at a position, in Bevy's coordinates.
+    pub fn height(&self, position: Vec3) -> f32 {
+        (self.compiled.value_f64(&self.anchors, self.local(position), 0.0) - self.datum) as f32
+    }
+
+    /// The ground's unit normal at a position.
+    pub fn normal(&self, position: Vec3) -> Vec3 {
+        let [x, z] = self.compiled.jet_f64(&self.anchors, self.local(position), 0.0).g;
+        Vec3::new(-x as f32, 1.0, -z as f32).normalize()
+    }
+
+    /// The ground's slope at a position, as the tangent of its angle.
+    pub fn slope(&self, position: Vec3) -> f32 {
+        let [x, z] = self.compiled.jet_f64(&self.anchors, self.local(position), 0.0).g;
+        x.hypot(z) as f32
+    }
+
+    /// As [`HorizonQuery::ray_cast`].
+    pub fn ray_cast(&self, origin: Vec3, direction: Dir3, max_distance: f32) -> Option<GroundHit> {
+        let [x, z] = self.local(origin);
+        let ray = Ray::new([x, f64::from(origin.y) + self.datum, z], direction.to_array().map(f64::from)).ok()?;
+        let surface = Anchored::new(self.compiled, &self.anchor);
+        let max_distance = f64::from(max_distance);
+        match cast(&surface, &ray, max_distance, Tolerance::default(), &mut Counts::default()) {
+            Cast::Hit(hit) => Some(GroundHit {
+                entity: self.entity,
+                distance: hit.t as f32,
+                position: origin + direction * hit.t as f32,
+                normal: Vec3::from_array(hit.normal.map(|x| x as f32)),
+            }),
+            Cast::Inside => {
+                Some(GroundHit { entity: self.entity, distance: 0.0, position: origin, normal: self.normal(origin) })
+            }
+            Cast::Miss => None,
+        }
+    }
+}

@@ -1,0 +1,420 @@
+//! Which tiles of which levels hold the ground around a camera, and which to fill next. Pure bookkeeping: no device.
+//!
+//! Clipmaps after Losasso & Hoppe 2004: levels of n × n texels around a centre, each twice as coarse as the last,
+//! stored toroidally, so that a centre that moves needs only new strips. Tiles lie on a grid fixed to the world: the
+//! same tile is always computed in the same way, wherever the camera and Bevy's origin are.
+
+use horizon_field::{CELL, Place};
+
+/// Texels along a tile's side.
+pub const TILE: i64 = 64;
+/// Nodes of a tile's pyramid: 32² + 16² + 8² + 4² + 2² + 1.
+pub const TILE_BOUNDS: u64 = 1365;
+/// The most levels that a clipmap can have; the array in `surface.wgsl` is as long.
+pub const MAX_LEVELS: usize = 20;
+/// log2 of the coarsest texel, in metres: a world cell.
+pub const COARSEST: i32 = 12;
+/// log2 of the finest texel, in metres: 4 mm.
+pub const FINEST: i32 = -8;
+/// Where a level begins to blend into the next, as a part of its radius.
+const INNER: f32 = 0.8;
+
+/// A rectangle of tiles, `min` included, `max` not.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct TileRect {
+    pub min: [i64; 2],
+    pub max: [i64; 2],
+}
+
+impl TileRect {
+    fn is_empty(&self) -> bool {
+        self.min[0] >= self.max[0] || self.min[1] >= self.max[1]
+    }
+
+    fn intersection(&self, other: &Self) -> Self {
+        Self {
+            min: [self.min[0].max(other.min[0]), self.min[1].max(other.min[1])],
+            max: [self.max[0].min(other.max[0]), self.max[1].min(other.max[1])],
+        }
+    }
+
+    fn contains(&self, tile: [i64; 2]) -> bool {
+        (0..2).all(|i| self.min[i] <= tile[i] && tile[i] < self.max[i])
+    }
+
+    fn tiles(self) -> impl Iterator<Item = [i64; 2]> {
+        (self.min[1]..self.max[1]).flat_map(move |z| (self.min[0]..self.max[0]).map(move |x| [x, z]))
+    }
+
+    fn area(&self) -> usize {
+        if self.is_empty() { 0 } else { ((self.max[0] - self.min[0]) * (self.max[1] - self.min[1])) as usize }
+    }
+}
+
+/// One level of a clipmap.
+#[derive(Clone, Debug)]
+pub struct Level {
+    /// log2 of metres per texel.
+    pub exponent: i32,
+    /// The texel that holds the centre, by its index in the world.
+    pub centre: [i64; 2],
+    /// Where in that texel the centre lies, 0 to 1.
+    pub fraction: [f64; 2],
+    /// The tiles that hold ground.
+    pub valid: TileRect,
+    /// The tiles that should.
+    target: TileRect,
+    /// By stored tile: its ground is out of date; its light is.
+    stale: Vec<bool>,
+    dim: Vec<bool>,
+}
+
+/// A tile of a level.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Tile {
+    /// The level, by the exponent of its texel.
+    pub exponent: i32,
+    /// The tile's index in the world.
+    pub index: [i64; 2],
+}
+
+/// What is to be done in a frame.
+#[derive(Clone, Debug, Default)]
+pub struct Work {
+    /// Tiles to fill with the field.
+    pub fill: Vec<Tile>,
+    /// Tiles whose pyramid is to be made: those, and their neighbours whose last patches reach into them.
+    pub pyramid: Vec<Tile>,
+    /// Tiles to light.
+    pub light: Vec<Tile>,
+}
+
+/// The levels around a centre.
+#[derive(Clone, Debug)]
+pub struct Clipmap {
+    /// Tiles along a level's side; even.
+    side: i64,
+    /// How many levels can be stored.
+    capacity: usize,
+    /// Finest first.
+    levels: Vec<Level>,
+}
+
+/// A level as the shader sees it, in texels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DrawnLevel {
+    pub exponent: i32,
+    pub inner: f32,
+    pub outer: f32,
+    /// The centre's texel, modulo the side.
+    pub base: [i32; 2],
+    pub fraction: [f32; 2],
+    pub slot: u32,
+}
+
+/// The texel index of a place at a level, and the fraction in it, of x and z.
+fn texel_of(place: &Place, exponent: i32) -> ([i64; 2], [f64; 2]) {
+    let texel = f64::from(exponent).exp2();
+    let mut index = [0; 2];
+    let mut fraction = [0.0; 2];
+    for (i, axis) in [0, 2].into_iter().enumerate() {
+        let local = place.offset[axis] / texel;
+        let whole = local.floor();
+        index[i] = place.cell[axis].wrapping_mul((CELL / texel) as i64).wrapping_add(whole as i64);
+        fraction[i] = local - whole;
+    }
+    (index, fraction)
+}
+
+/// The place of a tile's first texel, at height 0.
+pub fn place_of(tile: Tile) -> Place {
+    let texel = f64::from(tile.exponent).exp2();
+    let per_cell = (CELL / texel) as i64;
+    let mut place = Place::ORIGIN;
+    for (i, axis) in [0, 2].into_iter().enumerate() {
+        let index = tile.index[i].wrapping_mul(TILE);
+        place.cell[axis] = index.div_euclid(per_cell);
+        place.offset[axis] = index.rem_euclid(per_cell) as f64 * texel;
+    }
+    place
+}
+
+impl Clipmap {
+    /// An empty clipmap of `side` tiles along each side, an even number of at least 4, and at most `capacity` levels.
+    pub fn new(side: u32, capacity: usize) -> Self {
+        assert!(side >= 4 && side.is_multiple_of(2), "a clipmap has an even number of tiles, at least 4");
+        Self { side: i64::from(side), capacity: capacity.clamp(1, MAX_LEVELS), levels: Vec::new() }
+    }
+
+    /// Tiles along a level's side.
+    pub fn side(&self) -> u32 {
+        self.side as u32
+    }
+
+    /// How many levels can be stored.
+    pub fn capacity(&self) -> usize {
+        self.capacity
+    }
+
+    /// The index of a tile in the buffers.
+    pub fn stored(&self, tile: Tile) -> u32 {
+        let [x, z] = tile.index.map(|i| i.rem_euclid(self.side) as u32);
+        (self.slot(tile.exponent) * self.side() + z) * self.side() + x
+    }
+
+    fn slot(&self, exponent: i32) -> u32 {
+        exponent.rem_euclid(self.capacity as i32) as u32
+    }
+
+    fn stored_in_level(&self, index: [i64; 2]) -> usize {
+        let [x, z] = index.map(|i| i.rem_euclid(self.side) as usize);
+        z * self.side as usize + x
+    }
+
+    /// Moves the centre, and chooses the levels from `finest` to `coarsest` (exponents of their texels). What of a
+    /// level still lies in reach stays.
+    pub fn recentre(&mut self, centre: &Place, finest: i32, coarsest: i32) {
+        let coarsest = coarsest.clamp(FINEST, COARSEST);
+        let finest = finest.clamp((coarsest + 1 - self.capacity as i32).max(FINEST), coarsest);
+        self.levels.retain(|level| (finest..=coarsest).contains(&level.exponent));
+        for exponent in finest..=coarsest {
+            if !self.levels.iter().any(|level| level.exponent == exponent) {
+                let tiles = (self.side * self.side) as usize;
+                self.levels.push(Level {
+                    exponent,
+                    centre: [0; 2],
+                    fraction: [0.0; 2],
+                    valid: TileRect::default(),
+                    target: TileRect::default(),
+                    stale: vec![false; tiles],
+                    dim: vec![false; tiles],
+                });
+            }
+        }
+        self.levels.sort_by_key(|level| level.exponent);
+        for level in &mut self.levels {
+            (level.centre, level.fraction) = texel_of(centre, level.exponent);
+            let middle = level.centre.map(|c| (c + TILE / 2).div_euclid(TILE));
+            level.target = TileRect {
+                min: middle.map(|m| m - self.side / 2),
+                max: middle.map(|m| m + self.side / 2),
+            };
+            level.valid = level.valid.intersection(&level.target);
+        }
+    }
+
+    /// Everything is out of date: it is drawn on until it is filled again.
+    pub fn invalidate(&mut self) {
+        for level in &mut self.levels {
+            level.stale.fill(true);
+        }
+    }
+
+    /// The light has changed.
+    pub fn invalidate_light(&mut self) {
+        for level in &mut self.levels {
+            level.dim.fill(true);
+        }
+    }
+
+    /// The next work, at most about `budget` tiles filled and as many lit: first what is missing, coarse to fine, each
+    /// level outwards from its centre by whole strips, so that what it holds stays a rectangle; then what is out of date.
+    pub fn work(&mut self, budget: usize, lit: bool) -> Work {
+        let mut work = Work::default();
+        for i in (0..self.levels.len()).rev() {
+            self.grow(i, budget, &mut work);
+        }
+        for i in (0..self.levels.len()).rev() {
+            let level = &self.levels[i];
+            let stale: Vec<_> =
+                level.valid.tiles().filter(|tile| level.stale[self.stored_in_level(*tile)]).collect();
+            for index in stale {
+                if work.fill.len() >= budget {
+                    break;
+                }
+                self.fill(i, index, &mut work);
+            }
+        }
+        for tile in &work.fill {
+            for [dx, dz] in [[0, 0], [-1, 0], [0, -1], [-1, -1]] {
+                let neighbour = Tile { exponent: tile.exponent, index: [tile.index[0] + dx, tile.index[1] + dz] };
+                let valid = self.levels.iter().any(|l| l.exponent == tile.exponent && l.valid.contains(neighbour.index));
+                if valid && !work.pyramid.contains(&neighbour) {
+                    work.pyramid.push(neighbour);
+                }
+            }
+        }
+        let drawn = self.drawn();
+        for i in (0..self.levels.len()).rev().filter(|i| drawn[*i].outer > 0.0) {
+            let level = &self.levels[i];
+            let dim: Vec<_> = level.valid.tiles().filter(|tile| level.dim[self.stored_in_level(*tile)]).collect();
+            for index in dim {
+                if lit && work.light.len() >= budget.max(work.fill.len()) {
+                    break;
+                }
+                let at = self.stored_in_level(index);
+                self.levels[i].dim[at] = false;
+                work.light.push(Tile { exponent: self.levels[i].exponent, index });
+            }
+        }
+        work
+    }
+
+    fn fill(&mut self, level: usize, index: [i64; 2], work: &mut Work) {
+        let at = self.stored_in_level(index);
+        let level = &mut self.levels[level];
+        level.stale[at] = false;
+        level.dim[at] = true;
+        work.fill.push(Tile { exponent: level.exponent, index });
+    }
+
+    fn grow(&mut self, level: usize, budget: usize, work: &mut Work) {
+        while work.fill.len() < budget && self.levels[level].valid != self.levels[level].target {
+            let Level { valid, target, centre, .. } = &self.levels[level];
+            let (valid, target) = (*valid, *target);
+            let grown = if valid.is_empty() {
+                let middle = centre.map(|c| (c + TILE / 2).div_euclid(TILE));
+                TileRect { min: middle.map(|m| m - 1), max: middle.map(|m| m + 1) }
+            } else {
+                // The side that stands nearest to the centre, of those that may still move.
+                let (mut best, mut grown) = (i64::MAX, valid);
+                for axis in 0..2 {
+                    let at = centre[axis].div_euclid(TILE);
+                    if valid.min[axis] > target.min[axis] && at - valid.min[axis] < best {
+                        best = at - valid.min[axis];
+                        grown = valid;
+                        grown.min[axis] -= 1;
+                    }
+                    if valid.max[axis] < target.max[axis] && valid.max[axis] - 1 - at < best {
+                        best = valid.max[axis] - 1 - at;
+                        grown = valid;
+                        grown.max[axis] += 1;
+                    }
+                }
+                grown
+            };
+            for index in grown.tiles().filter(|tile| valid.is_empty() || !valid.contains(*tile)) {
+                self.fill(level, index, work);
+            }
+            self.levels[level].valid = grown;
+        }
+    }
+
+    /// Tiles that hold ground that is up to date, and tiles that should.
+    pub fn progress(&self) -> (usize, usize) {
+        let done = |level: &Level| {
+            level.valid.tiles().filter(|tile| !level.stale[self.stored_in_level(*tile)]).count()
+        };
+        (self.levels.iter().map(done).sum(), self.levels.iter().map(|level| level.target.area()).sum())
+    }
+
+    /// Whether every tile that holds ground is lit.
+    pub fn is_lit(&self) -> bool {
+        self.levels.iter().all(|level| !level.valid.tiles().any(|tile| level.dim[self.stored_in_level(tile)]))
+    }
+
+    /// All levels, finest first: each that can be drawn lies well inside the next; the others have no radius.
+    pub fn drawn(&self) -> Vec<DrawnLevel> {
+        let mut drawn: Vec<DrawnLevel> = Vec::new();
+        for level in self.levels.iter().rev() {
+            // The last texel of the rectangle has no patch; and a node may touch one more.
+            let mut outer = f64::INFINITY;
+            for axis in 0..2 {
+                let centre = level.centre[axis] as f64 + level.fraction[axis];
+                outer = outer.min(centre - (level.valid.min[axis] * TILE) as f64);
+                outer = outer.min((level.valid.max[axis] * TILE - 2) as f64 - centre);
+            }
+            if let Some(coarser) = drawn.last() {
+                outer = outer.min(2.0 * f64::from(coarser.outer) * 0.95);
+            }
+            if level.valid.is_empty() || outer < 8.0 {
+                outer = 0.0;
+            }
+            let side = self.side * TILE;
+            let outer = outer as f32;
+            drawn.push(DrawnLevel {
+                exponent: level.exponent,
+                inner: if drawn.is_empty() { 2.0 * outer } else { INNER * outer },
+                outer,
+                base: level.centre.map(|c| c.rem_euclid(side) as i32),
+                fraction: level.fraction.map(|f| f as f32),
+                slot: self.slot(level.exponent),
+            });
+        }
+        drawn.reverse();
+        drawn
+    }
+
+    /// A tile's level, by its place in [`Self::drawn`], and its first cell relative to the centre's.
+    pub fn relative(&self, tile: Tile) -> Option<(u32, [i32; 2])> {
+        let at = self.levels.iter().position(|level| level.exponent == tile.exponent)?;
+        let centre = self.levels[at].centre;
+        Some((at as u32, core::array::from_fn(|i| (tile.index[i] * TILE - centre[i]) as i32)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn filled(side: u32, centre: &Place, finest: i32, coarsest: i32) -> Clipmap {
+        let mut clipmap = Clipmap::new(side, 12);
+        clipmap.recentre(centre, finest, coarsest);
+        while clipmap.progress().0 < clipmap.progress().1 {
+            assert!(!clipmap.work(16, true).fill.is_empty(), "it must get on");
+        }
+        clipmap
+    }
+
+    #[test]
+    fn every_level_reaches_its_target_and_nests_in_the_next() {
+        let clipmap = filled(8, &Place::from_metres([12.3, 50.0, -777.7]), -2, 6);
+        let drawn = clipmap.drawn();
+        assert_eq!(drawn.len(), 9);
+        for pair in drawn.windows(2) {
+            assert!(pair[0].outer < 2.0 * pair[1].outer);
+            assert!(pair[0].outer >= 8.0 / 2.0 * 64.0 - 34.0);
+        }
+    }
+
+    #[test]
+    fn a_step_of_one_tile_fills_one_strip() {
+        let mut clipmap = filled(8, &Place::from_metres([1.0, 0.0, 1.0]), 0, 0);
+        clipmap.recentre(&Place::from_metres([65.0, 0.0, 1.0]), 0, 0);
+        assert_eq!(clipmap.work(1000, true).fill.len(), 8);
+        clipmap.recentre(&Place::from_metres([65.001, 0.0, 1.0]), 0, 0);
+        assert!(clipmap.work(1000, true).fill.is_empty());
+    }
+
+    #[test]
+    fn an_edit_refills_coarse_to_fine_without_a_hole() {
+        let mut clipmap = filled(4, &Place::ORIGIN, 0, 3);
+        clipmap.work(1000, true);
+        let before = clipmap.drawn();
+        clipmap.invalidate();
+        let work = clipmap.work(20, true);
+        assert!(work.fill[..16].iter().all(|tile| tile.exponent == 3));
+        assert_eq!(clipmap.drawn(), before);
+    }
+
+    #[test]
+    fn the_far_side_of_the_world_is_as_exact_as_the_origin() {
+        let near = filled(4, &Place::new([0; 3], [100.25, 0.0, 7.0]), -4, 2).drawn();
+        let far = filled(4, &Place::new([1 << 40, 0, -(1 << 40)], [100.25, 0.0, 7.0]), -4, 2).drawn();
+        for (near, far) in near.iter().zip(&far) {
+            assert_eq!(near.fraction, far.fraction);
+        }
+        let tile = Tile { exponent: -4, index: [(1 << 46) + 3, -5] };
+        let place = place_of(tile);
+        assert_eq!(texel_of(&place, -4).0, [tile.index[0] * TILE, tile.index[1] * TILE]);
+    }
+
+    #[test]
+    fn a_pyramid_is_remade_where_a_neighbour_came() {
+        let mut clipmap = filled(4, &Place::ORIGIN, 0, 0);
+        clipmap.recentre(&Place::from_metres([64.0, 0.0, 0.0]), 0, 0);
+        let work = clipmap.work(1000, true);
+        assert_eq!(work.fill.len(), 4);
+        assert_eq!(work.pyramid.len(), 8);
+    }
+}

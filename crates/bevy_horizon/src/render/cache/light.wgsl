@@ -1,0 +1,109 @@
+// How much of the sun's disc a point of the ground sees, for one point in 2 × 2 texels. The ground's horizon towards the
+// sun is the largest (h − h₀) / d; where it stands between the disc's lower and upper edge, part of the disc is hidden:
+// a penumbra as wide as the sun's angular radius makes it, without rays to sample. The pyramid prunes what stays below
+// the horizon found so far. Needs surface.wgsl.
+
+struct Sun {
+    // Level direction towards the sun.
+    towards: vec2<f32>,
+    // Tangent of the elevation of the disc's lower edge, its centre and its upper edge.
+    low: f32,
+    centre: f32,
+    high: f32,
+    // The disc's angular radius, in radians.
+    radius: f32,
+    // Nothing of the ground is higher, in metres above the datum.
+    highest: f32,
+}
+
+@group(0) @binding(1) var<storage, read> heights: array<f32>;
+@group(0) @binding(2) var<storage, read> bounds: array<vec2<f32>>;
+
+struct TileJob {
+    level: u32,
+    cell: vec2<i32>,
+}
+
+@group(0) @binding(3) var<storage, read> jobs: array<TileJob>;
+@group(0) @binding(4) var<uniform> sun: Sun;
+@group(0) @binding(5) var<storage, read_write> lights: array<f32>;
+
+const LIGHT_STEPS: u32 = 256u;
+
+// The part of a disc of radius 1 that lies above a line at height x.
+fn disc_above(x: f32) -> f32 {
+    let c = clamp(x, -1.0, 1.0);
+    return 0.5 - (c * sqrt(1.0 - c * c) + asin(c)) / 3.14159265;
+}
+
+// The tangent of the ground's elevation towards the sun, between the disc's edges.
+fn horizon(start_level: u32, start: vec2<i32>) -> f32 {
+    var level = start_level;
+    var cell = start;
+    let origin = (vec2<f32>(start) - clipmap.levels[level].fraction) * clipmap.levels[level].texel;
+    let h0 = stored_height(level, start);
+    let inverse = select(1.0 / sun.towards, vec2<f32>(1e30), abs(sun.towards) < vec2<f32>(1e-20));
+    let positive = sun.towards >= vec2<f32>(0.0);
+    var found = sun.low;
+    var d = 0.0;
+    var mip = 1u;
+    for (var step = 0u; step < LIGHT_STEPS; step++) {
+        if (level >= clipmap.count || found >= sun.high || h0 + found * d > sun.highest) {
+            break;
+        }
+        let l = clipmap.levels[level];
+        let from = origin * l.per_metre + l.fraction;
+        let low = ((((l.base + cell) >> vec2<u32>(mip)) << vec2<u32>(mip)) - l.base);
+        let high = low + vec2<i32>(i32(1u << mip));
+        let exits = (select(vec2<f32>(low), vec2<f32>(high), positive) - from) * inverse * l.texel;
+        let d_exit = max(min(exits.x, exits.y), d);
+        if (mip == 0u) {
+            let h = stored_corners(level, cell);
+            let at = from + sun.towards * l.per_metre * d_exit - vec2<f32>(cell);
+            if (d_exit > 0.75 * l.texel) {
+                found = max(found, (bilinear(h, at.x, at.y) - h0) / d_exit);
+            }
+        } else {
+            let b = stored_bounds(level, cell, mip);
+            if (b.y - h0 > min(found * d, found * d_exit)) {
+                // A node whose relief is a fraction of the sun's disc is as good as a point.
+                let middle = 0.5 * (d + d_exit);
+                if (b.y - b.x > 0.25 * sun.radius * d) {
+                    mip -= 1u;
+                    cell = clamp(vec2<i32>(floor(from + sun.towards * l.per_metre * d)), low, high - vec2<i32>(1));
+                    continue;
+                }
+                found = max(found, (0.5 * (b.x + b.y) - h0) / max(middle, l.texel));
+            }
+        }
+        d = d_exit;
+        let last = cell;
+        cell = clamp(vec2<i32>(floor(from + sun.towards * l.per_metre * d)), low, high - vec2<i32>(1));
+        if (exits.x <= exits.y) {
+            cell.x = select(low.x - 1, high.x, positive.x);
+        } else {
+            cell.y = select(low.y - 1, high.y, positive.y);
+        }
+        let up = vec2<u32>(mip + 1u);
+        if (mip < TILE_BITS && any(((l.base + cell) >> up) != ((l.base + last) >> up))) {
+            mip += 1u;
+        }
+        let p = origin + sun.towards * d;
+        if (max(abs(p.x), abs(p.y)) * l.per_metre >= l.outer) {
+            level += 1u;
+            if (level < clipmap.count) {
+                cell = vec2<i32>(floor(p * clipmap.levels[level].per_metre + clipmap.levels[level].fraction));
+                mip = max(mip, 1u) - 1u;
+            }
+        }
+    }
+    return found;
+}
+
+@compute @workgroup_size(8, 8, 1)
+fn light(@builtin(global_invocation_id) id: vec3<u32>) {
+    let job = jobs[id.z];
+    let cell = job.cell + vec2<i32>(id.xy * 2u);
+    let x = (horizon(job.level, cell) - sun.centre) / (sun.high - sun.centre);
+    lights[stored(job.level, cell).x * TILE_LIGHTS + id.y * 32u + id.x] = disc_above(x);
+}

@@ -1,0 +1,38 @@
+//! The sampling kernel of a terrain: the field's generated WGSL, with the fill pass behind it. Written in the main world,
+//! once for each structure of the tree; numbers do not enter.
+
+use bevy::prelude::*;
+use bevy::shader::Shader;
+use horizon_field::field::kernel::module;
+
+use super::shaders::fill_source;
+use crate::world::{CompiledTerrain, TerrainFields};
+
+/// The shader that fills a terrain's cache.
+#[derive(Component, Clone)]
+pub struct TerrainKernel {
+    /// The hash of the fields' structure.
+    pub structure: u64,
+    pub shader: Handle<Shader>,
+}
+
+/// The fields of a terrain by the names that `fill.wgsl` and `material.wgsl` call them.
+pub fn named_fields(fields: &TerrainFields) -> [(&'static str, &horizon_field::Compiled<2>); 3] {
+    [("height", &fields.height), ("material_edge", &fields.edge), ("material_tint", &fields.tint)]
+}
+
+pub fn write_kernels(
+    mut commands: Commands,
+    mut shaders: ResMut<Assets<Shader>>,
+    changed: Query<(Entity, &CompiledTerrain, Option<&TerrainKernel>), Changed<CompiledTerrain>>,
+) {
+    for (entity, compiled, old) in &changed {
+        let kernel = module(0, &named_fields(&compiled.0));
+        if old.is_some_and(|old| old.structure == kernel.structure) {
+            continue;
+        }
+        let path = format!("bevy_horizon/generated/{:016x}.wgsl", kernel.structure);
+        let shader = shaders.add(Shader::from_wgsl(fill_source(&kernel.source), path));
+        commands.entity(entity).insert(TerrainKernel { structure: kernel.structure, shader });
+    }
+}

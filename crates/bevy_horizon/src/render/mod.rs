@@ -1,0 +1,78 @@
+//! The picture. One stage a file, in data-flow order: `extract` (from the main world), `uniforms` (as shaders see it),
+//! `cache` (the field, at the resolution that the screen can show), `view` (a camera's rays), `passes` (into the view).
+
+pub(crate) mod cache;
+pub(crate) mod extract;
+mod kernel;
+pub(crate) mod passes;
+pub mod ready;
+mod shaders;
+mod uniforms;
+mod view;
+
+use bevy::core_pipeline::schedule::camera_driver;
+use bevy::prelude::*;
+use bevy::render::renderer::{RenderGraph, RenderGraphSystems};
+use bevy::render::sync_component::SyncComponentPlugin;
+use bevy::render::view::prepare_view_targets;
+use bevy::render::{ExtractSchedule, Render, RenderApp, RenderSystems};
+
+use crate::HorizonSystems;
+use crate::camera::HorizonCamera;
+
+pub use shaders::shader_sources;
+
+/// The picture of the worlds, in every `Camera3d` with a [`HorizonCamera`]. Nothing is built on the device before a
+/// world is there.
+pub struct HorizonRenderPlugin;
+
+impl Plugin for HorizonRenderPlugin {
+    fn build(&self, app: &mut App) {
+        app.add_message::<ready::WorldReady>()
+            .add_message::<ready::WorldProgress>()
+            .init_resource::<cache::CacheSettings>()
+            .add_plugins(SyncComponentPlugin::<HorizonCamera>::default())
+            .add_systems(PostUpdate, kernel::write_kernels.after(HorizonSystems::Compile))
+            .add_systems(PreUpdate, ready::report);
+        shaders::add_shaders(&mut app.world_mut().resource_mut());
+        let progress = ready::Progress::default();
+        app.insert_resource(progress.clone());
+        let Some(render_app) = app.get_sub_app_mut(RenderApp) else {
+            return;
+        };
+        render_app
+            .insert_resource(progress)
+            .init_resource::<extract::ExtractedWorld>()
+            .init_resource::<cache::Caches>()
+            .init_resource::<cache::CachePipelines>()
+            .init_resource::<passes::PassPipelines>()
+            .init_resource::<view::HorizonViews>()
+            .add_systems(ExtractSchedule, (extract::extract_world, extract::extract_cameras))
+            .add_systems(
+                Render,
+                (
+                    passes::read_depth.after(prepare_view_targets).in_set(RenderSystems::PrepareViews),
+                    (cache::prepare_caches, view::prepare_views, passes::prepare_pipelines)
+                        .chain()
+                        .in_set(RenderSystems::PrepareResources),
+                    passes::prepare_bind_groups.in_set(RenderSystems::PrepareBindGroups),
+                ),
+            )
+            .add_systems(RenderGraph, cache::fill_caches.in_set(RenderGraphSystems::Render).before(camera_driver));
+        passes::add_ground(render_app);
+    }
+}
+
+/// The air: sky and haze, in every camera with a [`HorizonCamera`] that sees an [`Atmosphere`](crate::world::Atmosphere).
+pub struct HorizonSkyPlugin;
+
+impl Plugin for HorizonSkyPlugin {
+    fn build(&self, app: &mut App) {
+        if let Some(render_app) = app.get_sub_app_mut(RenderApp)
+            && render_app.world().contains_resource::<extract::ExtractedWorld>()
+        {
+            render_app.add_systems(ExtractSchedule, extract::extract_atmospheres.after(extract::extract_world));
+            passes::add_sky(render_app);
+        }
+    }
+}

@@ -1,0 +1,121 @@
+// The ground's pass: one ray per pixel through the cache; colour and depth. Needs view.wgsl, surface.wgsl, march.wgsl.
+
+@group(0) @binding(1) var<storage, read> heights: array<f32>;
+@group(0) @binding(2) var<storage, read> bounds: array<vec2<f32>>;
+@group(0) @binding(3) var<storage, read> looks: array<vec2<u32>>;
+@group(0) @binding(4) var<storage, read> lights: array<f32>;
+@group(0) @binding(5) var<uniform> view: View;
+
+struct Look {
+    normal: vec3<f32>,
+    albedo: vec3<f32>,
+    gloss: f32,
+    light: f32,
+}
+
+fn unpack_normal(word: u32) -> vec3<f32> {
+    let xz = (vec2<f32>(f32(word >> 20u), f32((word >> 8u) & 4095u)) - 2048.0) / 2047.0;
+    return vec3<f32>(xz.x, sqrt(max(1.0 - dot(xz, xz), 1e-4)), xz.y);
+}
+
+fn light_at(level: u32, cell: vec2<i32>) -> f32 {
+    let at = stored(level, cell);
+    return lights[at.x * TILE_LIGHTS + ((at.z >> 1u) << 5u) + (at.y >> 1u)];
+}
+
+// What one level holds at a point of the ground, interpolated.
+fn level_look(level: u32, p: vec2<f32>) -> Look {
+    let l = clipmap.levels[level];
+    let at = p * l.per_metre + l.fraction;
+    let cell = vec2<i32>(floor(at));
+    let f = at - floor(at);
+    let w = vec4<f32>((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
+    var normal = vec3<f32>(0.0);
+    var colour = vec4<f32>(0.0);
+    for (var i = 0; i < 4; i++) {
+        let look = looks[texel_index(level, cell + vec2<i32>(i & 1, i >> 1u))];
+        normal += w[i] * unpack_normal(look.x);
+        colour += w[i] * unpack4x8unorm(look.y);
+    }
+    // The light's lattice holds every other texel.
+    let odd = (l.base + cell) & vec2<i32>(1);
+    let even = cell - odd;
+    let g = 0.5 * (vec2<f32>(odd) + f);
+    let light = bilinear(vec4<f32>(
+        light_at(level, even), light_at(level, even + vec2<i32>(2, 0)),
+        light_at(level, even + vec2<i32>(0, 2)), light_at(level, even + vec2<i32>(2, 2))), g.x, g.y);
+    return Look(normal, colour.rgb * colour.rgb, colour.a, light);
+}
+
+fn look_at(level: u32, p: vec2<f32>) -> Look {
+    var look = level_look(level, p);
+    let l = clipmap.levels[level];
+    let w = blend_at(level, p * l.per_metre + l.fraction);
+    if (w > 0.0 && level + 1u < clipmap.count) {
+        let c = level_look(level + 1u, p);
+        look = Look(mix(look.normal, c.normal, w), mix(look.albedo, c.albedo, w), mix(look.gloss, c.gloss, w), mix(look.light, c.light, w));
+    }
+    look.normal = normalize(look.normal);
+    return look;
+}
+
+// Lambert for the body; for the surface Blinn–Phong, normalised, under Schlick's Fresnel term.
+fn shade(look: Look, direction: vec3<f32>) -> vec3<f32> {
+    let n_l = max(dot(look.normal, view.sun_direction), 0.0);
+    let half_way = normalize(view.sun_direction - direction);
+    let power = exp2(2.0 + 6.0 * look.gloss);
+    let schlick = pow(1.0 - max(dot(half_way, view.sun_direction), 0.0), 5.0);
+    let fresnel = 0.04 + 0.96 * schlick;
+    let surface = look.gloss * fresnel * (power + 8.0) / 25.132741 * pow(max(dot(look.normal, half_way), 0.0), power);
+    let sun = view.sun * n_l * look.light * (look.albedo / 3.14159265 + surface);
+    // The sky above, and ground of the same colour below.
+    let open = 0.5 + 0.5 * look.normal.y;
+    let ambient = view.ambient * look.albedo * mix(0.35, 1.0, open);
+    return sun + ambient;
+}
+
+fn heat(x: f32) -> vec3<f32> {
+    let c = clamp(x, 0.0, 1.0);
+    return clamp(vec3<f32>(1.5) - abs(4.0 * c - vec3<f32>(3.0, 2.0, 1.0)), vec3<f32>(0.0), vec3<f32>(1.0));
+}
+
+struct Ground {
+    @location(0) colour: vec4<f32>,
+    @builtin(frag_depth) depth: f32,
+}
+
+@fragment
+fn ground(@builtin(position) position: vec4<f32>) -> Ground {
+    let ndc = ndc_of(position);
+    let near = view_point(ndc, 1.0);
+    var local = normalize(near);
+    var start = vec3<f32>(0.0);
+    var t_near = length(near);
+    if (view.orthographic != 0u) {
+        local = vec3<f32>(0.0, 0.0, -1.0);
+        start = near;
+        t_near = 0.0;
+    }
+    let direction = world_direction(local);
+    let ray = Ray(view.eye + world_direction(start), direction);
+    let found = march(ray, t_near, view.far);
+    if (found.t < 0.0) {
+        discard;
+    }
+    let p = ray.origin + direction * found.t;
+    let look = look_at(found.level, p.xz);
+    var colour = shade(look, direction) * view.exposure;
+    // Debug views, in the order of `DebugView`.
+    switch view.debug {
+        case 1u: { colour = look.normal * 0.5 + 0.5; }
+        case 2u: { colour = heat(f32(found.steps) / 96.0); }
+        case 3u: { colour = heat(f32(found.level) / 12.0) * (0.4 + 0.6 * max(look.normal.y, 0.0)); }
+        case 4u: { colour = vec3<f32>(look.light); }
+        case 5u: { colour = look.albedo; }
+        case 6u: { colour = heat(log2(1.0 + found.t) / 16.0); }
+        default: {}
+    }
+    let z = (start + local * found.t).z;
+    let clip = view.clip_from_view * vec4<f32>(0.0, 0.0, z, 1.0);
+    return Ground(present(vec4<f32>(colour, 1.0)), clip.z / clip.w);
+}

@@ -1,0 +1,53 @@
+//! How far the picture is: for loading screens and teleports.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use bevy::prelude::*;
+
+/// Every tile that the cameras need is up to date. Sent once each time that it becomes so.
+#[derive(Message, Clone, Copy, Debug, PartialEq, Eq)]
+pub struct WorldReady;
+
+/// How much of what the cameras need is up to date; sent when it changes.
+#[derive(Message, Clone, Copy, Debug, PartialEq, Eq)]
+pub struct WorldProgress {
+    /// Tiles that are up to date.
+    pub done: u32,
+    /// Tiles in all.
+    pub total: u32,
+}
+
+/// What the renderer last counted. It has no say in what is drawn.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Progress(Arc<(AtomicU32, AtomicU32)>);
+
+impl Progress {
+    pub(crate) fn set(&self, done: usize, total: usize) {
+        self.0.0.store(done as u32, Ordering::Relaxed);
+        self.0.1.store(total as u32, Ordering::Relaxed);
+    }
+
+    /// The counts of the last frame that was drawn.
+    pub fn get(&self) -> WorldProgress {
+        WorldProgress { done: self.0.0.load(Ordering::Relaxed), total: self.0.1.load(Ordering::Relaxed) }
+    }
+}
+
+pub(crate) fn report(
+    progress: Res<Progress>,
+    mut last: Local<Option<WorldProgress>>,
+    mut progressed: MessageWriter<WorldProgress>,
+    mut ready: MessageWriter<WorldReady>,
+) {
+    let now = progress.get();
+    if now.total == 0 || *last == Some(now) {
+        return;
+    }
+    progressed.write(now);
+    let was_done = last.is_some_and(|last| last.done == last.total);
+    if now.done == now.total && !was_done {
+        ready.write(WorldReady);
+    }
+    *last = Some(now);
+}

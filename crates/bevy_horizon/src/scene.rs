@@ -1,0 +1,319 @@
+//! Worlds as files: RON, versioned, through Bevy's asset loader, with hot reload. A file that makes no sense is refused
+//! with the field and the line, and the world that was loaded stays.
+
+use std::collections::BTreeMap;
+
+use bevy::asset::io::Reader;
+use bevy::asset::{AssetLoadFailedEvent, AssetLoader, LoadContext};
+use bevy::prelude::*;
+use horizon_field::FieldError;
+use horizon_field::field::HeightImage;
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::HorizonSystems;
+use crate::world::{Atmosphere, CompiledTerrain, ParamError, Sun, Terrain, TerrainError, check_params};
+
+/// The version of world files that this crate reads and writes.
+pub const WORLD_VERSION: u32 = 1;
+
+/// A world, as it stands in a file.
+#[derive(Asset, TypePath, Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WorldFile {
+    /// The file's version: 1.
+    pub version: u32,
+    /// The ground. Default: none.
+    #[serde(default)]
+    pub terrain: Option<Terrain>,
+    /// The air. Default: none.
+    #[serde(default)]
+    pub atmosphere: Option<Atmosphere>,
+    /// The sun. Default: none, the game's own lights are used.
+    #[serde(default)]
+    pub sun: Option<Sun>,
+    /// A good place to look from.
+    #[serde(default)]
+    pub view: Viewpoint,
+}
+
+/// A place to look from. The world itself does not use it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Viewpoint {
+    /// Where, as x and z, in metres. Default: the origin.
+    pub position: [f32; 2],
+    /// Metres above the ground. Default: 80.
+    pub above_ground: f32,
+    /// Where to, from −z (north) towards +x (east), in radians. Default: 0.
+    pub heading: f32,
+    /// Up or down, in radians. Default: −0.1.
+    pub pitch: f32,
+}
+
+impl Default for Viewpoint {
+    fn default() -> Self {
+        Self { position: [0.0; 2], above_ground: 80.0, heading: 0.0, pitch: -0.1 }
+    }
+}
+
+/// Why a world file was refused.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum WorldFileError {
+    /// The file can't be read.
+    #[error("the file can't be read: {0}")]
+    Read(#[from] std::io::Error),
+    /// The file is not text, or not RON, or has an unknown or a missing field.
+    #[error("line {line}, column {column}: {message}")]
+    Syntax {
+        /// The line, from 1.
+        line: usize,
+        /// The column, from 1.
+        column: usize,
+        /// What is wrong.
+        message: String,
+    },
+    /// The file is of a version that this crate does not know.
+    #[error("version {found} is not known: this is version {WORLD_VERSION} of world files")]
+    Version {
+        /// The file's version.
+        found: u32,
+    },
+    /// A parameter or a field makes no sense.
+    #[error("{}{source}", line.map(|line| format!("line {line}: ")).unwrap_or_default())]
+    Value {
+        /// The line, where it could be found.
+        line: Option<usize>,
+        /// What is wrong, with the path of the field.
+        source: TerrainError,
+    },
+    /// A height image can't be had.
+    #[error("the height image \"{path}\" can't be had: {reason}")]
+    Image {
+        /// The image's path, from the root of the assets.
+        path: String,
+        /// Why.
+        reason: String,
+    },
+}
+
+impl WorldFile {
+    /// Reads a world from RON, and checks all but its images.
+    ///
+    /// # Errors
+    /// See [`WorldFileError`].
+    pub fn from_ron(text: &str) -> Result<Self, WorldFileError> {
+        let syntax = |error: ron::error::SpannedError| WorldFileError::Syntax {
+            line: error.span.start.line,
+            column: error.span.start.col,
+            message: error.code.to_string(),
+        };
+        // The version first: another version's fields are not this one's mistakes.
+        #[derive(Deserialize)]
+        struct Version {
+            version: u32,
+        }
+        if let Ok(Version { version: found }) = options().from_str(text)
+            && found != WORLD_VERSION
+        {
+            return Err(WorldFileError::Version { found });
+        }
+        let world: Self = options().from_str(text).map_err(syntax)?;
+        world.check().map_err(|source| WorldFileError::Value { line: line_of(text, &source), source })?;
+        Ok(world)
+    }
+
+    /// Writes the world as RON, in a stable order.
+    ///
+    /// # Errors
+    /// None for any world that [`WorldFile::from_ron`] reads.
+    pub fn to_ron(&self) -> Result<String, ron::Error> {
+        options().to_string_pretty(self, ron::ser::PrettyConfig::default().struct_names(false))
+    }
+
+    fn check(&self) -> Result<(), TerrainError> {
+        if let Some(terrain) = &self.terrain {
+            terrain.field.check()?;
+            check_params("terrain.material", &terrain.material)?;
+        }
+        if let Some(atmosphere) = &self.atmosphere {
+            check_params("atmosphere", atmosphere)?;
+        }
+        if let Some(sun) = &self.sun {
+            check_params("sun", sun)?;
+        }
+        Ok(())
+    }
+}
+
+/// RON without ceremony: `Fractal(wavelength: 4000.0)`, and no `Some`.
+fn options() -> ron::Options {
+    use ron::extensions::Extensions;
+    ron::Options::default().with_default_extension(
+        Extensions::UNWRAP_VARIANT_NEWTYPES | Extensions::UNWRAP_NEWTYPES | Extensions::IMPLICIT_SOME,
+    )
+}
+
+/// The line on which a refused parameter stands: the first one that has its name with its value.
+fn line_of(text: &str, error: &TerrainError) -> Option<usize> {
+    let (path, value) = match error {
+        TerrainError::Param(ParamError { field, value, .. }) => (field, Some(*value)),
+        TerrainError::Field(FieldError::OutOfRange { path, value, .. } | FieldError::NotFinite { path, value }) => {
+            (path, Some(*value))
+        }
+        TerrainError::Field(FieldError::Empty { path, low, .. }) => (path, Some(*low)),
+        _ => return None,
+    };
+    let name = path.rsplit('.').next()?.split('[').next()?;
+    let has = |line: &str| {
+        let Some((_, rest)) = line.split_once(&format!("{name}:")) else { return false };
+        let mut numbers = rest.split(|c: char| !(c.is_ascii_alphanumeric() || "+-.".contains(c))).filter_map(|n| n.parse::<f64>().ok());
+        value.is_none_or(|value| numbers.any(|n| n == value || (n.is_nan() && value.is_nan()) || n as f32 == value as f32))
+    };
+    text.lines().position(has).map(|at| at + 1)
+}
+
+/// Loads [`WorldFile`]s, and the height images that they name by their path from the root of the assets.
+#[derive(Default, TypePath)]
+pub struct WorldLoader;
+
+impl AssetLoader for WorldLoader {
+    type Asset = WorldFile;
+    type Settings = ();
+    type Error = WorldFileError;
+
+    async fn load(
+        &self,
+        reader: &mut dyn Reader,
+        _: &(),
+        context: &mut LoadContext<'_>,
+    ) -> Result<WorldFile, WorldFileError> {
+        let mut bytes = Vec::new();
+        reader.read_to_end(&mut bytes).await?;
+        let text = String::from_utf8(bytes).map_err(|error| {
+            let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+            let line = before.iter().filter(|byte| **byte == b'\n').count() + 1;
+            WorldFileError::Syntax { line, column: 1, message: "not UTF-8 text".into() }
+        })?;
+        let mut world = WorldFile::from_ron(&text)?;
+        if let Some(terrain) = &mut world.terrain {
+            let mut images = BTreeMap::new();
+            for path in terrain.field.image_paths() {
+                let failed = |reason: String| WorldFileError::Image { path: path.clone(), reason };
+                let bytes = context.read_asset_bytes(path.clone()).await.map_err(|error| failed(error.to_string()))?;
+                images.insert(path.clone(), HeightImage::from_png(&bytes).map_err(failed)?);
+            }
+            terrain.images = images.into_iter().collect();
+            CompiledTerrain::new(terrain).map_err(|source| WorldFileError::Value { line: line_of(&text, &source), source })?;
+        }
+        Ok(world)
+    }
+
+    fn extensions(&self) -> &[&str] {
+        &["ron"]
+    }
+}
+
+/// Put it on an entity, and the file's terrain and air appear on it, its sun as a child. When the file changes, they do.
+#[derive(Component, Clone, Debug, Default, Reflect)]
+#[reflect(Component, Default, Clone)]
+#[require(Transform, Visibility)]
+pub struct HorizonWorld(pub Handle<WorldFile>);
+
+/// The sun that a world file brought, as a `DirectionalLight` under its [`HorizonWorld`].
+#[derive(Component, Clone, Copy, Debug, Default, Reflect)]
+#[reflect(Component, Default, Clone)]
+pub struct WorldSun;
+
+/// A world file was put into components.
+#[derive(Message, Clone, Copy, Debug, PartialEq, Eq)]
+pub struct WorldLoaded {
+    /// The entity of the [`HorizonWorld`].
+    pub entity: Entity,
+}
+
+/// A world file was refused; the world that was loaded before stays.
+#[derive(Message, Clone, Debug, PartialEq, Eq)]
+pub struct WorldRejected {
+    /// The file.
+    pub path: String,
+    /// Why, with field and line.
+    pub error: String,
+}
+
+/// World files. Needs Bevy's `AssetPlugin`; without it, it does nothing.
+pub struct HorizonScenePlugin;
+
+impl Plugin for HorizonScenePlugin {
+    fn build(&self, app: &mut App) {
+        app.add_message::<WorldLoaded>().add_message::<WorldRejected>().register_type::<HorizonWorld>();
+        if app.world().contains_resource::<AssetServer>() {
+            app.init_asset::<WorldFile>()
+                .register_asset_loader(WorldLoader)
+                .add_systems(PreUpdate, (apply_worlds, report_failures).in_set(HorizonSystems::Load));
+        }
+    }
+}
+
+fn apply_worlds(
+    mut commands: Commands,
+    mut events: MessageReader<AssetEvent<WorldFile>>,
+    files: Res<Assets<WorldFile>>,
+    worlds: Query<(Entity, Ref<HorizonWorld>, Option<&Children>)>,
+    suns: Query<(), With<WorldSun>>,
+    mut loaded: MessageWriter<WorldLoaded>,
+) {
+    let changed: Vec<_> = events
+        .read()
+        .filter_map(|event| match event {
+            AssetEvent::LoadedWithDependencies { id } | AssetEvent::Modified { id } => Some(*id),
+            _ => None,
+        })
+        .collect();
+    for (entity, world, children) in &worlds {
+        if !(world.is_changed() || changed.contains(&world.0.id())) {
+            continue;
+        }
+        let Some(file) = files.get(&world.0) else { continue };
+        let owner = entity;
+        let mut entity = commands.entity(owner);
+        match &file.terrain {
+            Some(terrain) => entity.insert(terrain.clone()),
+            None => entity.remove::<(Terrain, CompiledTerrain)>(),
+        };
+        match &file.atmosphere {
+            Some(atmosphere) => entity.insert(atmosphere.clone()),
+            None => entity.remove::<Atmosphere>(),
+        };
+        loaded.write(WorldLoaded { entity: owner });
+        for child in children.into_iter().flatten().filter(|child| suns.contains(**child)) {
+            commands.entity(*child).despawn();
+        }
+        #[cfg(feature = "render")]
+        if let Some(sun) = &file.sun {
+            let [r, g, b] = sun.colour;
+            let light = DirectionalLight {
+                color: Color::linear_rgb(r, g, b),
+                illuminance: sun.illuminance,
+                ..default()
+            };
+            commands.spawn((WorldSun, light, sun.transform(), ChildOf(owner)));
+            commands.insert_resource(GlobalAmbientLight {
+                color: Color::linear_rgb(0.62, 0.78, 1.0),
+                brightness: sun.ambient,
+                ..default()
+            });
+        }
+    }
+}
+
+fn report_failures(
+    mut failed: MessageReader<AssetLoadFailedEvent<WorldFile>>,
+    mut rejected: MessageWriter<WorldRejected>,
+) {
+    for failure in failed.read() {
+        error!("the world {} was refused, what was there before stays: {}", failure.path, failure.error);
+        rejected.write(WorldRejected { path: failure.path.to_string(), error: failure.error.to_string() });
+    }
+}

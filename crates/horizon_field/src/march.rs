@@ -1,0 +1,242 @@
+//! The certified march: the first crossing of a ray with a height field, in f64, over the full field.
+//!
+//! Fixed steps, and steps in proportion to the height above the ground, leap through thin ridges; here a stretch of the
+//! ray is passed over only when a bound *proves* it clear. With f(t) = y(t) − h(x(t), z(t)) and the surface's Taylor
+//! model |h(c + d) − v − g·d| ≤ r over the stretch's box, f(t) ≥ y(t) − v − g·(q(t) − c) − r. The right side is linear
+//! in t, so its two ends decide. What can't be decided is shortened, as in interval ray tracing (Mitchell, "Robust ray
+//! intersection with interval arithmetic", Graphics Interface 1990); where the bound of f' has one sign the crossing is
+//! unique, and Newton's method finds it.
+
+mod ray;
+mod surface;
+
+#[cfg(test)]
+pub(crate) mod fixtures;
+#[cfg(test)]
+mod tests;
+
+pub use ray::{Ray, RayError};
+pub use surface::{Anchored, Surface};
+
+use ray::Clearance;
+
+/// Where a ray meets the ground.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// The distance along the ray, in metres.
+    pub t: f64,
+    /// The point, in the ray's coordinates.
+    pub position: [f64; 3],
+    /// The ground's unit normal there, pointing up.
+    pub normal: [f64; 3],
+}
+
+/// What became of a ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cast {
+    /// The first point at which the ray meets the ground from above.
+    Hit(Hit),
+    /// The ray stays above the ground.
+    Miss,
+    /// The ray starts on or under the ground.
+    Inside,
+}
+
+impl Cast {
+    /// The hit, if it is one.
+    pub fn hit(self) -> Option<Hit> {
+        match self {
+            Self::Hit(hit) => Some(hit),
+            Self::Miss | Self::Inside => None,
+        }
+    }
+}
+
+/// How short a stretch may get before two samples decide it instead of a proof: `absolute + relative · t` metres.
+///
+/// A ray that dips under the ground and comes out again within one such stretch may be taken as a graze, and goes on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerance {
+    /// Metres. Default 1e-6, at least 1e-9.
+    pub absolute: f64,
+    /// Share of the distance. Default 1e-7, a ten-thousandth of a usual pixel's footprint; at least 1e-12.
+    pub relative: f64,
+}
+
+impl Default for Tolerance {
+    fn default() -> Self {
+        Self { absolute: 1e-6, relative: 1e-7 }
+    }
+}
+
+impl Tolerance {
+    /// In metres, at distance `t`.
+    fn at(&self, t: f64) -> f64 {
+        // `max` also takes the floor where the setting is NaN.
+        self.absolute.max(1e-9) + self.relative.max(1e-12) * t
+    }
+}
+
+/// What casts cost, summed over rays.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Boxes bounded.
+    pub bounds: u64,
+    /// Points evaluated.
+    pub jets: u64,
+    /// Stretches of the tolerance's length that no bound could decide.
+    pub grazes: u64,
+}
+
+impl core::ops::AddAssign for Counts {
+    fn add_assign(&mut self, other: Self) {
+        self.bounds += other.bounds;
+        self.jets += other.jets;
+        self.grazes += other.grazes;
+    }
+}
+
+/// The farthest that a ray is followed, in metres: beyond it f64 holds less than a millimetre.
+const FARTHEST: f64 = 1e12;
+
+/// Bounds per ray, and grazes per ray, after which it counts as touching. Ordinary rays need tens of bounds and no
+/// graze; only one that runs along the ground, nearer than bounds can tell, comes here.
+const MOST_BOUNDS: u64 = 1 << 18;
+const MOST_GRAZES: u64 = 1 << 12;
+
+/// Casts a ray up to the distance `t_max`, in metres.
+///
+/// No crossing is passed over, but for one whose way under the ground is shorter than the tolerance. A ray that runs
+/// along the ground, nearer to it than bounds can tell, is a hit where that begins to last. Any input ends.
+pub fn cast(surface: &impl Surface, ray: &Ray, t_max: f64, tolerance: Tolerance, counts: &mut Counts) -> Cast {
+    let (_, high) = surface.range();
+    // `min` also takes the farthest where `t_max` is NaN.
+    let Some([mut t, end]) = ray.below(high, t_max.min(FARTHEST)) else { return Cast::Miss };
+    if t == 0.0 {
+        counts.jets += 1;
+        if ray.clearance(surface, 0.0).f <= 0.0 {
+            return Cast::Inside;
+        }
+    }
+    let mut step = end - t;
+    let (bounds_end, grazes_end) = (counts.bounds + MOST_BOUNDS, counts.grazes + MOST_GRAZES);
+    // Invariant: f > 0 on [0, t], up to grazes.
+    while t < end {
+        let shortest = tolerance.at(t);
+        step = step.max(shortest);
+        let next = (t + step).min(end);
+        if counts.bounds >= bounds_end || counts.grazes >= grazes_end {
+            return Cast::Hit(hit(ray, t, &ray.clearance(surface, t)));
+        }
+        counts.bounds += 1;
+        let Stretch { clear, slope, rest_share } = Stretch::bound(surface, ray, t, next);
+        if clear >= 1.0 || slope[0] > 0.0 {
+            t = next;
+            step *= GROWTH;
+        } else if slope[1] < 0.0 || step <= shortest {
+            // f falls all the way, so its sign at the end tells: a crossing, the only one, or none. In a stretch of
+            // the tolerance's length it is taken to tell.
+            counts.jets += 1;
+            let there = ray.clearance(surface, next);
+            if there.f <= 0.0 {
+                return Cast::Hit(refine(surface, ray, [t, next], there, counts));
+            }
+            counts.grazes += u64::from(slope[1] >= 0.0);
+            t = next;
+            step *= GROWTH;
+        } else if clear >= 0.25 {
+            t += 0.999 * clear * step;
+            step *= 0.5;
+        } else {
+            step *= rest_share;
+        }
+    }
+    Cast::Miss
+}
+
+/// How much longer the next stretch is tried after one that was clear.
+const GROWTH: f64 = 2.0;
+
+/// What a bound proves about a stretch of a ray.
+struct Stretch {
+    /// The share of the stretch, from its start, that is proven clear of the ground; 1 for all of it.
+    clear: f64,
+    /// The interval of df/dt.
+    slope: [f64; 2],
+    /// By how much the stretch should be shortened to be proven clear at its start, at a guess.
+    rest_share: f64,
+}
+
+impl Stretch {
+    fn bound(surface: &impl Surface, ray: &Ray, start: f64, end: f64) -> Self {
+        let [dx, dy, dz] = ray.direction();
+        let (from, to) = (ray.at(start), ray.at(end));
+        let middle = [0.5 * (from[0] + to[0]), 0.5 * (from[2] + to[2])];
+        // The box holds both ends however `at` and the middle were rounded.
+        let half = [0, 1].map(|i| {
+            let ends = [from[2 * i], to[2 * i]];
+            0.5 * (ends[1] - ends[0]).abs() + 2.0 * f64::EPSILON * (ends[0].abs() + ends[1].abs())
+        });
+        let bound = surface.bound(middle, half);
+        let slope = [0, 1].map(|side| {
+            let part = |d: f64, [low, high]: [f64; 2]| {
+                // The upper bound of the ground's slope gives the lower one of f'.
+                if (d > 0.0) == (side == 0) { d * high } else { d * low }
+            };
+            dy - part(dx, bound.slope[0]) - part(dz, bound.slope[1])
+        });
+        // f's lower bound at both ends, by the Taylor model and by the interval; the better one decides.
+        let pad = 4.0 * f64::EPSILON * (from[1].abs() + to[1].abs() + bound.v.abs());
+        let linear =
+            |p: [f64; 3]| p[1] - bound.v - bound.g[0] * (p[0] - middle[0]) - bound.g[1] * (p[2] - middle[1]) - pad;
+        let rise = [linear(from), linear(to)];
+        let clear = clear_share(rise.map(|x| x - bound.rest))
+            .max(clear_share([from[1] - bound.high - pad, to[1] - bound.high - pad]));
+        // The rest falls with the square of the length where curvature rules it.
+        let rest_share = (rise[0] / bound.rest).clamp(0.0, 0.25).sqrt().max(0.125);
+        Self { clear, slope, rest_share }
+    }
+}
+
+/// The share, from the start, on which a linear function with these values at the ends is positive.
+fn clear_share([start, end]: [f64; 2]) -> f64 {
+    if start > 0.0 && end > 0.0 {
+        1.0
+    } else if start > 0.0 {
+        start / (start - end)
+    } else {
+        0.0
+    }
+}
+
+/// The crossing between `low`, where f > 0, and `high`, where f ≤ 0 as `here` says: Newton's method, kept in the bracket by bisection.
+fn refine(
+    surface: &impl Surface,
+    ray: &Ray,
+    [mut low, mut high]: [f64; 2],
+    mut here: Clearance,
+    counts: &mut Counts,
+) -> Hit {
+    // Newton needs about four turns, bisection alone at most the bits of an f64.
+    const TURNS: usize = 64;
+    let mut t = high;
+    for _ in 0..TURNS {
+        if here.f.abs() <= 1e-13 * (1.0 + ray.at(t)[1].abs()) || high - low <= 4.0 * f64::EPSILON * high {
+            break;
+        }
+        let newton = t - here.f / here.slope;
+        t = if low < newton && newton < high { newton } else { 0.5 * (low + high) };
+        here = ray.clearance(surface, t);
+        counts.jets += 1;
+        if here.f > 0.0 {
+            low = t;
+        } else {
+            high = t;
+        }
+    }
+    hit(ray, t, &here)
+}
+
+fn hit(ray: &Ray, t: f64, here: &Clearance) -> Hit {
+    Hit { t, position: ray.at(t), normal: surface::normal(here.ground.g) }
+}

@@ -1,0 +1,59 @@
+//! The project's own commands: `cargo demo`, `cargo verify`, `cargo bless`. They set the machine up first, so that a fresh
+//! one needs Rust, a C linker and git, and nothing else.
+
+mod apt;
+mod examples;
+mod readme;
+mod run;
+mod setup;
+mod suites;
+mod verify;
+
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use crate::run::{Failure, Tool};
+
+#[derive(Parser)]
+#[command(name = "cargo", about = "The project's own commands")]
+enum Command {
+    /// Flies through a world: in a window, or where there is no display, into a file
+    #[command(disable_help_flag = true)]
+    Demo {
+        /// Options of the `fly_through` example (`--help` lists them)
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        options: Vec<OsString>,
+    },
+    /// Runs every check and test
+    Verify(verify::Options),
+    /// Renders golden images anew and keeps them; look at each before it is committed
+    Bless {
+        /// The images to renew; all of them when none is named
+        names: Vec<String>,
+    },
+    /// Installs a Vulkan driver where there is none
+    Setup,
+}
+
+fn main() -> ExitCode {
+    let outcome = match Command::parse() {
+        Command::Demo { options } => demo(&options),
+        Command::Verify(options) => return verify::run(&options),
+        Command::Bless { names } => setup::run().and_then(|()| suites::bless(&names)),
+        Command::Setup => setup::run(),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("{failure}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn demo(options: &[OsString]) -> Result<(), Failure> {
+    setup::run()?;
+    Tool::cargo().args(["run", "--example", "fly_through", "--"]).args(options).run()
+}

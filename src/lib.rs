@@ -1,0 +1,3 @@
+//! The workspace package: it owns the examples, the tests and the assets, and what the two share.
+
+pub mod offscreen;
