@@ -1,13 +1,22 @@
 //! A world in about 20 lines.
+use bevy::camera::Exposure;
 use bevy::prelude::*;
 use bevy_horizon::prelude::*;
 
 fn main() {
-    App::new().add_plugins((DefaultPlugins, HorizonPlugins)).add_systems(Startup, setup).run();
+    // A game writes `DefaultPlugins` here; these also run where there is no display.
+    let plugins = bevy_horizon_workspace::example::plugins();
+    App::new().add_plugins((plugins, HorizonPlugins)).add_systems(Startup, setup).run();
 }
 
 fn setup(mut commands: Commands) {
     commands.spawn((Terrain::default(), Atmosphere::default()));
-    commands.spawn((DirectionalLight::default(), Sun::default().transform()));
-    commands.spawn((Camera3d::default(), HorizonCamera::default(), Transform::from_xyz(0.0, 600.0, 0.0)));
+    commands.spawn((DirectionalLight { illuminance: 100_000.0, ..default() }, Sun::default().transform()));
+    commands.insert_resource(GlobalAmbientLight { brightness: 5_000.0, ..default() });
+    commands.spawn((
+        Camera3d::default(),
+        Exposure { ev100: 14.0 },
+        HorizonCamera::default(),
+        Transform::from_xyz(0.0, 600.0, 0.0).looking_to(Vec3::new(0.0, -0.2, -1.0), Vec3::Y),
+    ));
 }

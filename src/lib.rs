@@ -1,3 +1,4 @@
 //! The workspace package: it owns the examples, the tests and the assets, and what the two share.
 
+pub mod example;
 pub mod offscreen;

@@ -1,5 +1,7 @@
 //! Rendering without a window, frame by frame: for tests, and for examples where there is no display.
 
+use std::collections::HashMap;
+
 use bevy::app::{PluginGroupBuilder, Plugins};
 use bevy::asset::RenderAssetUsages;
 use bevy::camera::RenderTarget;
@@ -22,6 +24,21 @@ pub fn plugins() -> PluginGroupBuilder {
         .disable::<PipelinedRenderingPlugin>()
 }
 
+/// A new image that cameras can draw into.
+pub fn target_image(app: &mut App, width: u32, height: u32) -> Handle<Image> {
+    let mut image = Image::new_target_texture(width, height, TextureFormat::Rgba8UnormSrgb, None);
+    image.texture_descriptor.usage |= TextureUsages::COPY_SRC;
+    image.asset_usage = RenderAssetUsages::default();
+    app.world_mut().resource_mut::<Assets<Image>>().add(image)
+}
+
+/// From now on, all cameras that appear draw into this image: programs that spawn theirs for a window need no change.
+pub fn redirect_cameras(app: &mut App, target: Handle<Image>) {
+    app.add_observer(move |added: On<Add, Camera>, mut commands: Commands| {
+        commands.entity(added.entity).insert(RenderTarget::from(target.clone()));
+    });
+}
+
 /// An app that draws into an image, and gives it out.
 pub struct Offscreen {
     /// The app. Drive it with [`Offscreen::update`].
@@ -29,8 +46,12 @@ pub struct Offscreen {
     target: Handle<Image>,
 }
 
+/// A picture that was asked for: [`Offscreen::taken`] gives it out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shot(Entity);
+
 #[derive(Resource, Default)]
-struct Captured(Option<Image>);
+struct Captured(HashMap<Entity, Image>);
 
 impl Offscreen {
     /// An app with these plugins and a target of this size.
@@ -38,12 +59,9 @@ impl Offscreen {
         let mut app = App::new();
         app.add_plugins(plugins).init_resource::<Captured>();
         app.add_observer(|event: On<ScreenshotCaptured>, mut captured: ResMut<Captured>| {
-            captured.0 = Some(event.image.clone());
+            captured.0.insert(event.entity, event.image.clone());
         });
-        let mut image = Image::new_target_texture(width, height, TextureFormat::Rgba8UnormSrgb, None);
-        image.texture_descriptor.usage |= TextureUsages::COPY_SRC;
-        image.asset_usage = RenderAssetUsages::default();
-        let target = app.world_mut().resource_mut::<Assets<Image>>().add(image);
+        let target = target_image(&mut app, width, height);
         app.finish();
         app.cleanup();
         Self { app, target }
@@ -64,14 +82,24 @@ impl Offscreen {
         self.app.update();
     }
 
+    /// Asks for the picture of the next frame. It arrives some frames later, so that films need not wait for each.
+    pub fn shoot(&mut self) -> Shot {
+        Shot(self.app.world_mut().spawn(Screenshot::image(self.target.clone())).id())
+    }
+
+    /// The picture, once it is there.
+    pub fn taken(&mut self, shot: Shot) -> Option<RgbaImage> {
+        let image = self.app.world_mut().resource_mut::<Captured>().0.remove(&shot.0)?;
+        Some(image.try_into_dynamic().expect("the target is 8-bit RGBA").to_rgba8())
+    }
+
     /// Draws one more frame, and gives out the picture.
     pub fn screenshot(&mut self) -> RgbaImage {
-        self.app.world_mut().spawn(Screenshot::image(self.target.clone()));
+        let shot = self.shoot();
         for _ in 0..64 {
             self.app.update();
-            if let Some(image) = self.app.world_mut().resource_mut::<Captured>().0.take() {
-                let image = image.try_into_dynamic().expect("the target is 8-bit RGBA");
-                return image.to_rgba8();
+            if let Some(image) = self.taken(shot) {
+                return image;
             }
         }
         panic!("no screenshot came back within 64 frames");

@@ -7,9 +7,13 @@
 //! intersection with interval arithmetic", Graphics Interface 1990); where the bound of f' has one sign the crossing is
 //! unique, and Newton's method finds it.
 
+mod beam;
 mod ray;
+mod stretch;
 mod surface;
 
+#[cfg(test)]
+mod field_tests;
 #[cfg(test)]
 pub(crate) mod fixtures;
 #[cfg(test)]
@@ -18,7 +22,10 @@ mod tests;
 pub use ray::{Ray, RayError};
 pub use surface::{Anchored, Surface};
 
+pub(crate) use beam::{Line, clear_beam};
+
 use ray::Clearance;
+use stretch::Stretch;
 
 /// Where a ray meets the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -109,9 +116,21 @@ const MOST_GRAZES: u64 = 1 << 12;
 /// No crossing is passed over, but for one whose way under the ground is shorter than the tolerance. A ray that runs
 /// along the ground, nearer to it than bounds can tell, is a hit where that begins to last. Any input ends.
 pub fn cast(surface: &impl Surface, ray: &Ray, t_max: f64, tolerance: Tolerance, counts: &mut Counts) -> Cast {
+    cast_from(surface, ray, [0.0, t_max], tolerance, counts)
+}
+
+/// The same for a ray that is known to be clear of the ground up to `start`, by a [`beam`].
+pub(crate) fn cast_from(
+    surface: &impl Surface,
+    ray: &Ray,
+    [start, t_max]: [f64; 2],
+    tolerance: Tolerance,
+    counts: &mut Counts,
+) -> Cast {
     let (_, high) = surface.range();
     // `min` also takes the farthest where `t_max` is NaN.
-    let Some([mut t, end]) = ray.below(high, t_max.min(FARTHEST)) else { return Cast::Miss };
+    let Some([first, end]) = ray.below(high, t_max.min(FARTHEST)) else { return Cast::Miss };
+    let mut t = first.max(start);
     if t == 0.0 {
         counts.jets += 1;
         if ray.clearance(surface, 0.0).f <= 0.0 {
@@ -123,13 +142,14 @@ pub fn cast(surface: &impl Surface, ray: &Ray, t_max: f64, tolerance: Tolerance,
     // Invariant: f > 0 on [0, t], up to grazes.
     while t < end {
         let shortest = tolerance.at(t);
-        step = step.max(shortest);
-        let next = (t + step).min(end);
+        step = step.max(shortest).min(end - t);
+        let next = t + step;
         if counts.bounds >= bounds_end || counts.grazes >= grazes_end {
             return Cast::Hit(hit(ray, t, &ray.clearance(surface, t)));
         }
         counts.bounds += 1;
-        let Stretch { clear, slope, rest_share } = Stretch::bound(surface, ray, t, next);
+        let Stretch { clear, shrink, slope } = Stretch::bound(surface, &[ray.at(t)], &[ray.at(next)]);
+        let slope = ray.slope(slope);
         if clear >= 1.0 || slope[0] > 0.0 {
             t = next;
             step *= GROWTH;
@@ -144,11 +164,11 @@ pub fn cast(surface: &impl Surface, ray: &Ray, t_max: f64, tolerance: Tolerance,
             counts.grazes += u64::from(slope[1] >= 0.0);
             t = next;
             step *= GROWTH;
-        } else if clear >= 0.25 {
+        } else if clear >= PROGRESS {
             t += 0.999 * clear * step;
             step *= 0.5;
         } else {
-            step *= rest_share;
+            step *= shrink;
         }
     }
     Cast::Miss
@@ -157,59 +177,11 @@ pub fn cast(surface: &impl Surface, ray: &Ray, t_max: f64, tolerance: Tolerance,
 /// How much longer the next stretch is tried after one that was clear.
 const GROWTH: f64 = 2.0;
 
-/// What a bound proves about a stretch of a ray.
-struct Stretch {
-    /// The share of the stretch, from its start, that is proven clear of the ground; 1 for all of it.
-    clear: f64,
-    /// The interval of df/dt.
-    slope: [f64; 2],
-    /// By how much the stretch should be shortened to be proven clear at its start, at a guess.
-    rest_share: f64,
-}
+/// The least share of a stretch that is worth stepping over, when not all of it is clear.
+const PROGRESS: f64 = 0.25;
 
-impl Stretch {
-    fn bound(surface: &impl Surface, ray: &Ray, start: f64, end: f64) -> Self {
-        let [dx, dy, dz] = ray.direction();
-        let (from, to) = (ray.at(start), ray.at(end));
-        let middle = [0.5 * (from[0] + to[0]), 0.5 * (from[2] + to[2])];
-        // The box holds both ends however `at` and the middle were rounded.
-        let half = [0, 1].map(|i| {
-            let ends = [from[2 * i], to[2 * i]];
-            0.5 * (ends[1] - ends[0]).abs() + 2.0 * f64::EPSILON * (ends[0].abs() + ends[1].abs())
-        });
-        let bound = surface.bound(middle, half);
-        let slope = [0, 1].map(|side| {
-            let part = |d: f64, [low, high]: [f64; 2]| {
-                // The upper bound of the ground's slope gives the lower one of f'.
-                if (d > 0.0) == (side == 0) { d * high } else { d * low }
-            };
-            dy - part(dx, bound.slope[0]) - part(dz, bound.slope[1])
-        });
-        // f's lower bound at both ends, by the Taylor model and by the interval; the better one decides.
-        let pad = 4.0 * f64::EPSILON * (from[1].abs() + to[1].abs() + bound.v.abs());
-        let linear =
-            |p: [f64; 3]| p[1] - bound.v - bound.g[0] * (p[0] - middle[0]) - bound.g[1] * (p[2] - middle[1]) - pad;
-        let rise = [linear(from), linear(to)];
-        let clear = clear_share(rise.map(|x| x - bound.rest))
-            .max(clear_share([from[1] - bound.high - pad, to[1] - bound.high - pad]));
-        // The rest falls with the square of the length where curvature rules it.
-        let rest_share = (rise[0] / bound.rest).clamp(0.0, 0.25).sqrt().max(0.125);
-        Self { clear, slope, rest_share }
-    }
-}
-
-/// The share, from the start, on which a linear function with these values at the ends is positive.
-fn clear_share([start, end]: [f64; 2]) -> f64 {
-    if start > 0.0 && end > 0.0 {
-        1.0
-    } else if start > 0.0 {
-        start / (start - end)
-    } else {
-        0.0
-    }
-}
-
-/// The crossing between `low`, where f > 0, and `high`, where f ≤ 0 as `here` says: Newton's method, kept in the bracket by bisection.
+/// The crossing between `low`, where f > 0, and `high`, where f ≤ 0 as `here` says: Newton's method, kept in the
+/// bracket by bisection.
 fn refine(
     surface: &impl Surface,
     ray: &Ray,

@@ -9,7 +9,7 @@ pub use camera::{Projection, TruthCamera};
 
 use std::sync::Mutex;
 
-use crate::march::{Cast, Counts, Surface, Tolerance, cast};
+use crate::march::{Cast, Counts, Surface, Tolerance, cast_from, clear_beam};
 
 /// The truth about one ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,16 +61,16 @@ impl TruthPicture {
     pub fn compute(surface: &(impl Surface + Sync), camera: TruthCamera, far: f64, threads: usize) -> Self {
         let width = 2 * camera.width + 1;
         let mut grid = vec![Sample { t: f64::INFINITY, normal: [0.0; 3] }; width * (2 * camera.height + 1)];
-        let rows = Mutex::new(grid.chunks_mut(width).enumerate());
+        let bands = Mutex::new(grid.chunks_mut(width * TILE).enumerate());
         let total = Mutex::new(Counts::default());
         let work = || {
             let mut counts = Counts::default();
             loop {
-                // Its own statement, so that the lock is let go before the row's rays are cast.
-                let row = rows.lock().expect("no worker panics").next();
-                let Some((y, row)) = row else { break };
-                for (x, sample) in row.iter_mut().enumerate() {
-                    *sample = look(surface, &camera, [x, y], far, &mut counts);
+                // Its own statement, so that the lock is let go before the band's rays are cast.
+                let band = bands.lock().expect("no worker panics").next();
+                let Some((i, band)) = band else { break };
+                for x in (0..width).step_by(TILE) {
+                    look(surface, &camera, [x, i * TILE], band, far, &mut counts);
                 }
             }
             *total.lock().expect("no worker panics") += counts;
@@ -94,11 +94,33 @@ impl TruthPicture {
     }
 }
 
-fn look(surface: &impl Surface, camera: &TruthCamera, grid: [usize; 2], far: f64, counts: &mut Counts) -> Sample {
-    match cast(surface, &camera.ray(grid), far, Tolerance::default(), counts) {
-        Cast::Hit(hit) => Sample { t: hit.t, normal: hit.normal },
-        Cast::Miss => Sample { t: f64::INFINITY, normal: [0.0; 3] },
-        Cast::Inside => Sample { t: 0.0, normal: [0.0; 3] },
+/// Rays per edge of a tile, which start together where their beam comes near the ground.
+const TILE: usize = 16;
+
+/// Casts the rays of one tile, whose first one is at the grid's `[left, top]`, of a band of the grid's rows.
+fn look(
+    surface: &impl Surface,
+    camera: &TruthCamera,
+    [left, top]: [usize; 2],
+    band: &mut [Sample],
+    far: f64,
+    counts: &mut Counts,
+) {
+    let width = 2 * camera.width + 1;
+    let (right, bottom) = (width.min(left + TILE), top + band.len() / width);
+    let corners = [[left, top], [right - 1, top], [left, bottom - 1], [right - 1, bottom - 1]];
+    let depth = clear_beam(surface, &corners.map(|grid| camera.line(grid)), far, counts);
+    for (y, row) in band.chunks_mut(width).enumerate() {
+        for (x, sample) in (left..).zip(&mut row[left..right]) {
+            let ray = camera.ray([x, top + y]);
+            // Less a hair, as `line` and `ray` are rounded apart.
+            let start = (1.0 - 1e-9) * depth / camera.cosine(&ray);
+            *sample = match cast_from(surface, &ray, [start, far], Tolerance::default(), counts) {
+                Cast::Hit(hit) => Sample { t: hit.t, normal: hit.normal },
+                Cast::Miss => Sample { t: f64::INFINITY, normal: [0.0; 3] },
+                Cast::Inside => Sample { t: 0.0, normal: [0.0; 3] },
+            };
+        }
     }
 }
 

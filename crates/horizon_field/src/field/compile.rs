@@ -65,7 +65,9 @@ impl Field {
         if everywhere.peak.is_nan() || everywhere.peak > MAX_HEIGHT {
             return Err(FieldError::TooHigh { height: everywhere.peak });
         }
-        parts.range = (everywhere.low, everywhere.high);
+        // Evaluation rounds relative to the largest value on the way.
+        let pad = 1e-12 * everywhere.peak;
+        parts.range = (everywhere.low - pad, everywhere.high + pad);
         Ok(Compiled { parts: Arc::new(parts) })
     }
 }

@@ -113,7 +113,7 @@ impl Curve {
     /// What is proven for all u in `[low, high]`. No curve falls, so the ends bound the value.
     pub(super) fn bound(&self, low: f64, high: f64) -> CurveBound {
         let ends = [self.at(low), self.at(high)];
-        let value = [ends[0][0], ends[1][0]];
+        let value = [ends[0][0].min(ends[1][0]), ends[0][0].max(ends[1][0])];
         let slopes = [ends[0][1].min(ends[1][1]), ends[0][1].max(ends[1][1])];
         // A ridge of slope `peak` halfway: it counts where the interval holds it.
         let ridge = |holds: bool, peak: f64| [slopes[0], if holds { peak } else { slopes[1] }];
@@ -144,6 +144,16 @@ impl Curve {
             }
         };
         CurveBound { value, slope, curvature }
+    }
+
+    /// The largest number that is met on the way to a value, besides u and the value: what rounding is relative to.
+    pub(super) fn scale(&self) -> f64 {
+        match *self {
+            Self::Clamp { .. } => 0.0,
+            Self::Ramp { .. } | Self::Step { .. } => 1.0,
+            Self::Terrace { step, .. } => step,
+            Self::Round { radius, .. } => radius,
+        }
     }
 
     /// The largest slope anywhere.

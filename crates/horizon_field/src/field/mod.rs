@@ -44,7 +44,11 @@ pub use param::Param;
 
 /// What an implicit world is: a function of the plane (x, z), or of space (x, y, z), in metres.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "reflect", derive(bevy_reflect::Reflect), reflect(no_field_bounds, Clone, Debug, Default, PartialEq))]
+#[cfg_attr(
+    feature = "reflect",
+    derive(bevy_reflect::Reflect),
+    reflect(no_field_bounds, Clone, Debug, Default, PartialEq)
+)]
 #[serde(deny_unknown_fields)]
 pub enum Field {
     /// The same height everywhere, in metres; from −10⁶ to 10⁶.

@@ -6,8 +6,9 @@ use super::curve::Curve;
 use super::walk::Function;
 use crate::fractal::Algebra;
 
-/// Per operation, of the operands: rounding.
-const ROUNDING: f64 = 4e-16;
+/// How far rounding takes an operation, in the model's arithmetic and in the field's evaluation together, as a share of
+/// the largest operand: some units in the last place. Sums may cancel, so the result says nothing of it.
+const ROUNDING: f64 = 1e-15;
 
 /// A bound, with the box that it holds for.
 #[derive(Clone, Copy, Debug)]
@@ -36,6 +37,17 @@ impl<const D: usize> Model<D> {
             *rest = reach + ROUNDING * (low.abs() + high.abs());
         }
         model
+    }
+
+    /// As [`Model::new`], of what an operation made of operands that are as large as `operands`.
+    fn rounded(bound: Bound<D>, operands: f64, half: [f64; D]) -> Self {
+        let pad = ROUNDING * operands;
+        Self::new(Bound { rest: bound.rest + pad, low: bound.low - pad, high: bound.high + pad, ..bound }, half)
+    }
+
+    /// The largest absolute value.
+    fn magnitude(&self) -> f64 {
+        self.bound.low.abs().max(self.bound.high.abs()).max(self.bound.v.abs())
     }
 
     /// How far the linear model and its rest get from v.
@@ -79,7 +91,9 @@ impl<const D: usize> Model<D> {
             high: value[1],
             slope: self.bound.slope.map(|own| interval_product(own, slope)),
         };
-        Self::new(bound, self.half)
+        let steepest = slope[0].abs().max(slope[1].abs());
+        let operands = self.magnitude() * steepest + value[0].abs().max(value[1].abs());
+        Self::rounded(bound, operands, self.half)
     }
 
     /// The interval of the values, and of v, which may be outside.
@@ -107,7 +121,7 @@ impl<const D: usize> Algebra for Model<D> {
             high: a.high + b.high,
             slope: core::array::from_fn(|k| [a.slope[k][0] + b.slope[k][0], a.slope[k][1] + b.slope[k][1]]),
         };
-        Self::new(bound, self.half_with(&other))
+        Self::rounded(bound, self.magnitude() + other.magnitude(), self.half_with(&other))
     }
 
     /// (a + α)(b + β) = ab + aβ + bα + αβ, of which the linear parts of the first three are the model's.
@@ -126,7 +140,7 @@ impl<const D: usize> Algebra for Model<D> {
                 [x[0] + y[0], x[1] + y[1]]
             }),
         };
-        Self::new(bound, self.half_with(&other))
+        Self::rounded(bound, self.magnitude() * other.magnitude(), self.half_with(&other))
     }
 
     fn scaled(self, by: f64) -> Self {
@@ -140,7 +154,7 @@ impl<const D: usize> Algebra for Model<D> {
             high,
             slope: a.slope.map(|slope| interval_product(slope, [by; 2])),
         };
-        Self::new(bound, self.half)
+        Self::rounded(bound, self.magnitude() * by.abs(), self.half)
     }
 
     fn shifted(self, by: f64) -> Self {
@@ -202,14 +216,18 @@ impl<const D: usize> Function for Model<D> {
     fn curve(self, curve: &Curve) -> Self {
         let [low, high] = self.reach();
         let over = curve.bound(low, high);
-        let value = [curve.at(self.bound.low)[0], curve.at(self.bound.high)[0]];
-        self.composed(curve.at(self.bound.v), value, over.slope, over.curvature)
+        let ends = [curve.at(self.bound.low)[0], curve.at(self.bound.high)[0]];
+        // No curve falls, but rounding may make a level one seem to; and steps are added that cancel.
+        let pad = ROUNDING * curve.scale();
+        let value = [ends[0].min(ends[1]) - pad, ends[0].max(ends[1]) + pad];
+        let composed = self.composed(curve.at(self.bound.v), value, over.slope, over.curvature);
+        Self::rounded(composed.bound, curve.scale(), self.half)
     }
 
     fn blend(self, from: Self, to: Self) -> Self {
         let blend = from.plus(to.plus(from.negated()).times(self));
         let (low, high) = (from.bound.low.min(to.bound.low), from.bound.high.max(to.bound.high));
-        let pad = ROUNDING * (low.abs() + high.abs());
+        let pad = ROUNDING * (from.magnitude() + to.magnitude());
         blend.within(low - pad, high + pad)
     }
 
@@ -219,7 +237,7 @@ impl<const D: usize> Function for Model<D> {
         let deepest = -round.at(0.0_f64)[0];
         let low = self.bound.low.min(other.bound.low) - deepest;
         let high = self.bound.high.min(other.bound.high);
-        let pad = ROUNDING * (low.abs() + high.abs());
+        let pad = ROUNDING * (self.magnitude() + other.magnitude());
         least.within(low - pad, high + pad)
     }
 }

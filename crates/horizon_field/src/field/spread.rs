@@ -131,7 +131,8 @@ impl Function for Everywhere {
         let [low, high] = curve.bound(self.low, self.high).value;
         let steepest = curve.steepest();
         let left_out = self.left_out * steepest;
-        Self { low, high, slope: product(self.slope, steepest), left_out, peak: 0.0 }.peaked(self.peak)
+        Self { low, high, slope: product(self.slope, steepest), left_out, peak: 0.0 }
+            .peaked(self.peak.max(curve.scale()))
     }
 
     fn blend(self, from: Self, to: Self) -> Self {

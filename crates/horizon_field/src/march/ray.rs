@@ -67,6 +67,15 @@ impl Ray {
         }
     }
 
+    /// The interval of f', given those of the ground's slope along x and z.
+    pub(super) fn slope(&self, ground: [[f64; 2]; 2]) -> [f64; 2] {
+        let [dx, dy, dz] = self.direction;
+        // The upper bound of the ground's slope gives the lower one of f', where d > 0.
+        let along = |d: f64, [low, high]: [f64; 2]| if d > 0.0 { [d * low, d * high] } else { [d * high, d * low] };
+        let (x, z) = (along(dx, ground[0]), along(dz, ground[1]));
+        [dy - x[1] - z[1], dy - x[0] - z[0]]
+    }
+
     /// How far the ray is above the ground at `t`, f(t) = y(t) − h(x(t), z(t)), with f'(t) and the ground's jet.
     pub(super) fn clearance(&self, surface: &impl Surface, t: f64) -> Clearance {
         let [x, y, z] = self.at(t);

@@ -140,6 +140,25 @@ fn odd_input_is_refused_or_ends() {
     }
 }
 
+#[test]
+fn the_far_distance_cuts_nothing_before_it() {
+    let hills = Waves::hills();
+    let mut hits = 0;
+    for i in 0..200 {
+        let turn = f64::from(i) * 0.1;
+        let ray = Ray::new([40.0 * f64::from(i), 420.0, 77.0], [turn.cos(), -0.03, turn.sin()]).unwrap();
+        let to = |far: f64| cast(&hills, &ray, far, Tolerance::default(), &mut Counts::default()).hit();
+        let Some(hit) = to(FAR) else { continue };
+        hits += 1;
+        for more in [1e-3, 0.3, 7.0, 60.0] {
+            let again = to(hit.t + more).expect("what is hit stays hit");
+            assert!((again.t - hit.t).abs() < 1e-6, "{again:?} and {hit:?}");
+        }
+        assert_eq!(to(hit.t - 1e-3), None);
+    }
+    assert!(hits > 100, "{hits}");
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(300))]
 

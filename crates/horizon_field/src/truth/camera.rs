@@ -1,6 +1,6 @@
 //! The camera of a truth picture: pixel centres, and the grid of half pixels around them.
 
-use crate::march::Ray;
+use crate::march::{Line, Ray};
 
 /// How a camera maps directions to pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,11 +55,17 @@ impl TruthCamera {
     /// The ray through a point of the half-pixel grid, whose `[0, 0]` is the picture's top left corner; pixel (x, y)
     /// has its centre at `[2 x + 1, 2 y + 1]`.
     pub fn ray(&self, grid: [usize; 2]) -> Ray {
+        let (origin, direction) = self.line(grid);
+        Ray::new(origin, direction).expect("a camera's axes and position are finite")
+    }
+
+    /// The same, parametrised by depth along the camera's axis.
+    pub(super) fn line(&self, grid: [usize; 2]) -> Line {
         // In half pictures: −1 at the left and at the bottom, 1 at the right and at the top.
         let x = grid[0] as f64 / self.width as f64 - 1.0;
         let y = 1.0 - grid[1] as f64 / self.height as f64;
         let aspect = self.width as f64 / self.height as f64;
-        let (origin, direction) = match self.projection {
+        match self.projection {
             Projection::Perspective { fov } => {
                 let tan = (0.5 * fov).tan();
                 (self.position, self.offset(self.forward, x * tan * aspect, y * tan))
@@ -67,8 +73,12 @@ impl TruthCamera {
             Projection::Orthographic { height } => {
                 (self.offset(self.position, 0.5 * height * x * aspect, 0.5 * height * y), self.forward)
             }
-        };
-        Ray::new(origin, direction).expect("a camera's axes and position are finite")
+        }
+    }
+
+    /// The cosine between a ray and the camera's axis: depth over distance.
+    pub(super) fn cosine(&self, ray: &Ray) -> f64 {
+        ray.direction().iter().zip(self.forward).map(|(a, b)| a * b).sum()
     }
 
     /// The ray through the centre of a pixel, counted row by row.

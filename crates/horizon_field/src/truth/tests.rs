@@ -2,6 +2,7 @@
 
 use super::{Projection, TruthCamera, TruthPicture};
 use crate::march::fixtures::{Pillars, Plane, Waves};
+use crate::march::{Cast, Counts, Surface, Tolerance, cast};
 
 const SIZE: [usize; 2] = [48, 27];
 const WIDE: Projection = Projection::Perspective { fov: 0.8 };
@@ -58,6 +59,33 @@ fn a_camera_under_the_ground_sees_it_at_once() {
     let camera = TruthCamera::looking_at([0.0, -700.0, 0.0], [1.0, -700.0, 0.0], WIDE, SIZE);
     let picture = TruthPicture::compute(&Waves::hills(), camera, 5000.0, 2);
     assert!(picture.pixels.iter().all(|pixel| pixel.t == 0.0 && !pixel.silhouette));
+}
+
+#[test]
+fn beams_change_nothing() {
+    let hills = Waves::hills();
+    let pillars = Pillars { height: 80.0, radius: 0.5, spacing: 100.0 };
+    fn compare(surface: &(impl Surface + Sync), camera: TruthCamera) {
+        let picture = TruthPicture::compute(surface, camera, 30_000.0, 2);
+        for (i, pixel) in picture.pixels.iter().enumerate() {
+            let ray = camera.pixel_ray(i);
+            match cast(surface, &ray, 30_000.0, Tolerance::default(), &mut Counts::default()) {
+                Cast::Hit(hit) => assert!((hit.t - pixel.t).abs() < 1e-6, "{hit:?} and {pixel:?}"),
+                Cast::Miss => assert_eq!(pixel.t, f64::INFINITY),
+                Cast::Inside => assert_eq!(pixel.t, 0.0),
+            }
+        }
+    }
+    for projection in [WIDE, Projection::Orthographic { height: 300.0 }] {
+        for (eye, target) in [
+            ([30.0, 360.0, 10.0], [3000.0, 300.0, 1000.0]),
+            ([250.0, 1500.0, 0.0], [250.0, 0.0, 0.0]),
+            ([20.0, 40.0, 20.0], [500.0, 30.0, 700.0]),
+        ] {
+            compare(&hills, TruthCamera::looking_at(eye, target, projection, SIZE));
+            compare(&pillars, TruthCamera::looking_at(eye, target, projection, SIZE));
+        }
+    }
 }
 
 #[test]

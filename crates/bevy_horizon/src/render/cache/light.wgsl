@@ -39,62 +39,62 @@ fn disc_above(x: f32) -> f32 {
 // The tangent of the ground's elevation towards the sun, between the disc's edges.
 fn horizon(start_level: u32, start: vec2<i32>) -> f32 {
     var level = start_level;
+    var l = clipmap.levels[level];
     var cell = start;
-    let origin = (vec2<f32>(start) - clipmap.levels[level].fraction) * clipmap.levels[level].texel;
-    let h0 = stored_height(level, start);
-    let inverse = select(1.0 / sun.towards, vec2<f32>(1e30), abs(sun.towards) < vec2<f32>(1e-20));
+    let centre = (vec2<f32>(start) - l.fraction) * l.texel;
+    var origin = vec2<f32>(start);
+    let h0 = stored_height(l, start);
     let positive = sun.towards >= vec2<f32>(0.0);
+    let inverse = select(1.0 / sun.towards, vec2<f32>(1e30), abs(sun.towards) < vec2<f32>(1e-20));
     var found = sun.low;
     var d = 0.0;
     var mip = 1u;
     for (var step = 0u; step < LIGHT_STEPS; step++) {
-        if (level >= clipmap.count || found >= sun.high || h0 + found * d > sun.highest) {
+        if (found >= sun.high || h0 + found * d > sun.highest) {
             break;
         }
-        let l = clipmap.levels[level];
-        let from = origin * l.per_metre + l.fraction;
-        let low = ((((l.base + cell) >> vec2<u32>(mip)) << vec2<u32>(mip)) - l.base);
-        let high = low + vec2<i32>(i32(1u << mip));
-        let exits = (select(vec2<f32>(low), vec2<f32>(high), positive) - from) * inverse * l.texel;
+        let low = (((l.base + cell) >> vec2<u32>(mip)) << vec2<u32>(mip)) - l.base;
+        let high = low + vec2<i32>(1 << mip);
+        let exits = (select(vec2<f32>(low), vec2<f32>(high), positive) - origin) * inverse * l.texel;
         let d_exit = max(min(exits.x, exits.y), d);
         if (mip == 0u) {
-            let h = stored_corners(level, cell);
-            let at = from + sun.towards * l.per_metre * d_exit - vec2<f32>(cell);
+            let h = stored_corners(l, cell);
+            let at = origin + sun.towards * l.per_metre * d_exit - vec2<f32>(cell);
             if (d_exit > 0.75 * l.texel) {
                 found = max(found, (bilinear(h, at.x, at.y) - h0) / d_exit);
             }
         } else {
-            let b = stored_bounds(level, cell, mip);
+            let b = stored_bounds(l, cell, mip);
             if (b.y - h0 > min(found * d, found * d_exit)) {
                 // A node whose relief is a fraction of the sun's disc is as good as a point.
-                let middle = 0.5 * (d + d_exit);
                 if (b.y - b.x > 0.25 * sun.radius * d) {
                     mip -= 1u;
-                    cell = clamp(vec2<i32>(floor(from + sun.towards * l.per_metre * d)), low, high - vec2<i32>(1));
+                    cell = clamp(vec2<i32>(floor(origin + sun.towards * l.per_metre * d)), low, high - vec2<i32>(1));
                     continue;
                 }
-                found = max(found, (0.5 * (b.x + b.y) - h0) / max(middle, l.texel));
+                found = max(found, (0.5 * (b.x + b.y) - h0) / max(0.5 * (d + d_exit), l.texel));
             }
         }
         d = d_exit;
-        let last = cell;
-        cell = clamp(vec2<i32>(floor(from + sun.towards * l.per_metre * d)), low, high - vec2<i32>(1));
-        if (exits.x <= exits.y) {
-            cell.x = select(low.x - 1, high.x, positive.x);
-        } else {
-            cell.y = select(low.y - 1, high.y, positive.y);
-        }
-        let up = vec2<u32>(mip + 1u);
-        if (mip < TILE_BITS && any(((l.base + cell) >> up) != ((l.base + last) >> up))) {
-            mip += 1u;
-        }
-        let p = origin + sun.towards * d;
+        let p = centre + sun.towards * d;
         if (max(abs(p.x), abs(p.y)) * l.per_metre >= l.outer) {
             level += 1u;
-            if (level < clipmap.count) {
-                cell = vec2<i32>(floor(p * clipmap.levels[level].per_metre + clipmap.levels[level].fraction));
-                mip = max(mip, 1u) - 1u;
+            if (level >= clipmap.count) {
+                break;
             }
+            l = clipmap.levels[level];
+            origin = centre * l.per_metre + l.fraction;
+            cell = vec2<i32>(floor(p * l.per_metre + l.fraction));
+            mip = max(mip, 1u) - 1u;
+            continue;
+        }
+        let last = l.base + cell;
+        cell = clamp(vec2<i32>(floor(origin + sun.towards * l.per_metre * d)), low, high - vec2<i32>(1));
+        let side = select(low - vec2<i32>(1), high, positive);
+        cell = select(vec2<i32>(cell.x, side.y), vec2<i32>(side.x, cell.y), exits.x <= exits.y);
+        let up = vec2<u32>(mip + 1u);
+        if (mip < TILE_BITS && any(((l.base + cell) >> up) != (last >> up))) {
+            mip += 1u;
         }
     }
     return found;
@@ -105,5 +105,6 @@ fn light(@builtin(global_invocation_id) id: vec3<u32>) {
     let job = jobs[id.z];
     let cell = job.cell + vec2<i32>(id.xy * 2u);
     let x = (horizon(job.level, cell) - sun.centre) / (sun.high - sun.centre);
-    lights[stored(job.level, cell).x * TILE_LIGHTS + id.y * 32u + id.x] = disc_above(x);
+    let l = clipmap.levels[job.level];
+    lights[tile_of(l, wrapped(l, cell)) * TILE_LIGHTS + id.y * 32u + id.x] = disc_above(x);
 }

@@ -43,8 +43,8 @@ fn first_root(q0: f32, q1: f32, q2: f32, length: f32) -> f32 {
 }
 
 // The finest level that draws the ground at this point.
-fn level_at(p: vec3<f32>) -> u32 {
-    let c = max(abs(p.x), abs(p.z));
+fn level_at(p: vec2<f32>) -> u32 {
+    let c = max(abs(p.x), abs(p.y));
     var level = 0u;
     while (level < clipmap.count && c >= clipmap.levels[level].outer * clipmap.levels[level].texel) {
         level++;
@@ -61,99 +61,98 @@ fn enters_square(ray: Ray, inverse: vec2<f32>, r: f32) -> f32 {
     return select(1e30, near, near <= far);
 }
 
+// When the ray enters the finer level that a level holds in its middle. A ray that starts in the middle never does.
+fn enters_finer(ray: Ray, inverse: vec2<f32>, level: u32) -> f32 {
+    if (level == 0u) {
+        return 1e30;
+    }
+    let finer = clipmap.levels[level - 1u];
+    return select(enters_square(ray, inverse, finer.outer * finer.texel), 1e30, finer.outer <= 0.0);
+}
+
 fn march(ray: Ray, t_start: f32, t_far: f32) -> Found {
     var t = t_start;
-    var p = ray.origin + ray.direction * t;
+    var p = (ray.origin + ray.direction * t).xz;
     var level = level_at(p);
+    if (level >= clipmap.count) {
+        return Found(-1.0, 0u, vec2<i32>(0), 0u);
+    }
     var mip = TOP_MIP;
-    // A direction that is all but level with an axis never crosses that axis' lines.
     let direction = ray.direction.xz;
+    let positive = direction >= vec2<f32>(0.0);
+    // A direction that is all but level with an axis never crosses that axis' lines.
     let inverse = select(1.0 / direction, vec2<f32>(1e30), abs(direction) < vec2<f32>(1e-20));
-    var cell = vec2<i32>(floor(p.xz * clipmap.levels[min(level, 19u)].per_metre + clipmap.levels[min(level, 19u)].fraction));
+
+    // What depends on the level alone.
+    var l = clipmap.levels[level];
+    var enters = enters_finer(ray, inverse, level);
+    var origin = ray.origin.xz * l.per_metre + l.fraction;
+    var d = direction * l.per_metre;
+    var cell = vec2<i32>(floor(origin + d * t));
+
     for (var step = 0u; step < MARCH_STEPS; step++) {
-        if (t > t_far || level >= clipmap.count) {
-            return Found(-1.0, 0u, vec2<i32>(0), step);
-        }
-        let l = clipmap.levels[level];
-        let origin = ray.origin.xz * l.per_metre + l.fraction;
-        let per_texel = inverse * l.texel;
-
         // The node, and when the ray leaves it.
-        let low = ((((l.base + cell) >> vec2<u32>(mip)) << vec2<u32>(mip)) - l.base);
-        let high = low + vec2<i32>(i32(1u << mip));
-        let exits = (select(vec2<f32>(low), vec2<f32>(high), direction >= vec2<f32>(0.0)) - origin) * per_texel;
+        let low = (((l.base + cell) >> vec2<u32>(mip)) << vec2<u32>(mip)) - l.base;
+        let high = low + vec2<i32>(1 << mip);
+        let exits = (select(vec2<f32>(low), vec2<f32>(high), positive) - origin) * inverse * l.texel;
         var t_exit = max(min(exits.x, exits.y), t);
-        var finer = false;
-        if (level > 0u && clipmap.levels[level - 1u].outer > 0.0) {
-            let enters = enters_square(ray, inverse, clipmap.levels[level - 1u].outer * clipmap.levels[level - 1u].texel);
-            if (enters > t && enters < t_exit) {
-                t_exit = enters;
-                finer = true;
-            }
-        }
+        let finer = enters > t && enters < t_exit;
+        t_exit = select(t_exit, enters, finer);
 
-        var descend = false;
         if (mip == 0u) {
-            let h = corners(level, cell);
-            let from_corner = origin - vec2<f32>(cell);
-            let d = direction * l.per_metre;
-            let at = from_corner + d * t;
+            let h = corners(l, level, cell);
+            let at = origin - vec2<f32>(cell) + d * t;
             let a = h.y - h.x;
             let b = h.z - h.x;
-            let c = h.w - h.y - h.z + h.x;
+            let c = h.w - h.y - b;
             let q0 = ray.origin.y + ray.direction.y * t - (h.x + a * at.x + b * at.y + c * at.x * at.y);
             let q1 = ray.direction.y - (a * d.x + b * d.y + c * (at.x * d.y + at.y * d.x));
             let q2 = -c * d.x * d.y;
             let s = first_root(q0, q1, q2, t_exit - t);
-            if (s >= 0.0 && t + s <= t_far) {
-                return Found(t + s, level, cell, step);
+            if (s >= 0.0) {
+                return Found(select(-1.0, t + s, t + s <= t_far), level, cell, step);
             }
         } else {
-            let highest = node_bounds(level, cell, low, mip).y;
+            let highest = node_bounds(l, level, cell, low, mip).y;
             let y = ray.origin.y + ray.direction.y * t;
-            let y_exit = ray.origin.y + ray.direction.y * t_exit;
-            if (min(y, y_exit) <= highest) {
-                descend = true;
+            if (min(y, ray.origin.y + ray.direction.y * t_exit) <= highest) {
                 // Not before the ray has fallen to the node's highest point.
-                if (y > highest && ray.direction.y < 0.0) {
+                if (y > highest) {
                     t = clamp((highest - ray.origin.y) / ray.direction.y, t, t_exit);
                 }
                 mip -= 1u;
-                let at = vec2<i32>(floor(origin + direction * l.per_metre * t));
-                cell = clamp(at, low, high - vec2<i32>(1));
-            }
-        }
-        if (!descend) {
-            // On to the neighbour, named exactly by the side that the ray leaves through.
-            t = t_exit;
-            if (finer) {
-                level -= 1u;
-                mip = min(mip + 1u, TOP_MIP);
-                p = ray.origin + ray.direction * t;
-                cell = vec2<i32>(floor(p.xz * clipmap.levels[level].per_metre + clipmap.levels[level].fraction));
+                cell = clamp(vec2<i32>(floor(origin + d * t)), low, high - vec2<i32>(1));
                 continue;
             }
-            let last = cell;
-            cell = clamp(vec2<i32>(floor(origin + direction * l.per_metre * t)), low, high - vec2<i32>(1));
-            if (exits.x <= exits.y) {
-                cell.x = select(low.x - 1, high.x, direction.x >= 0.0);
-            } else {
-                cell.y = select(low.y - 1, high.y, direction.y >= 0.0);
+        }
+
+        // On to the neighbour, named exactly by the side that the ray leaves through: no patch is skipped by rounding.
+        t = t_exit;
+        if (t > t_far) {
+            break;
+        }
+        p = (ray.origin + ray.direction * t).xz;
+        let outside = max(abs(p.x), abs(p.y)) * l.per_metre >= l.outer;
+        if (finer || outside) {
+            level = select(level + 1u, level - 1u, finer);
+            if (level >= clipmap.count) {
+                break;
             }
-            let up = vec2<u32>(mip + 1u);
-            if (mip < TOP_MIP && any(((l.base + cell) >> up) != ((l.base + last) >> up))) {
-                mip += 1u;
-            }
-            // Past the rim: the next level.
-            p = ray.origin + ray.direction * t;
-            if (max(abs(p.x), abs(p.z)) * l.per_metre >= l.outer) {
-                level += 1u;
-                if (level < clipmap.count) {
-                    let next = clipmap.levels[level];
-                    cell = vec2<i32>(floor(p.xz * next.per_metre + next.fraction));
-                    mip = max(mip, 1u) - 1u;
-                }
-            }
+            l = clipmap.levels[level];
+            enters = enters_finer(ray, inverse, level);
+            origin = ray.origin.xz * l.per_metre + l.fraction;
+            d = direction * l.per_metre;
+            cell = vec2<i32>(floor(origin + d * t));
+            mip = select(max(mip, 1u) - 1u, min(mip + 1u, TOP_MIP), finer);
+            continue;
+        }
+        let last = l.base + cell;
+        cell = clamp(vec2<i32>(floor(origin + d * t)), low, high - vec2<i32>(1));
+        let side = select(low - vec2<i32>(1), high, positive);
+        cell = select(vec2<i32>(cell.x, side.y), vec2<i32>(side.x, cell.y), exits.x <= exits.y);
+        let up = vec2<u32>(mip + 1u);
+        if (mip < TOP_MIP && any(((l.base + cell) >> up) != (last >> up))) {
+            mip += 1u;
         }
     }
     return Found(-1.0, 0u, vec2<i32>(0), MARCH_STEPS);

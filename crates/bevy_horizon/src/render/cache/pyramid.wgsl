@@ -18,14 +18,15 @@ var<workgroup> highest: array<f32, 1024>;
 @compute @workgroup_size(16, 16, 1)
 fn pyramid(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) id: vec3<u32>) {
     let job = jobs[group.x];
-    let out = stored(job.level, job.cell).x * TILE_BOUNDS;
+    let l = clipmap.levels[job.level];
+    let out = tile_of(l, wrapped(l, job.cell)) * TILE_BOUNDS;
     // Mip 1: 32 × 32 nodes of 3 × 3 texels, four to a thread.
     for (var i = 0u; i < 4u; i++) {
         let node = vec2<u32>(id.x + 16u * (i & 1u), id.y + 16u * (i >> 1u));
         var low = 1e30;
         var high = -1e30;
         for (var k = 0; k < 9; k++) {
-            let h = stored_height(job.level, job.cell + vec2<i32>(node * 2u) + vec2<i32>(k % 3, k / 3));
+            let h = stored_height(l, job.cell + vec2<i32>(node * 2u) + vec2<i32>(k % 3, k / 3));
             low = min(low, h);
             high = max(high, h);
         }

@@ -36,83 +36,97 @@ const TILE_TEXELS: u32 = 4096u;
 const TILE_BOUNDS: u32 = 1365u;
 const TILE_LIGHTS: u32 = 1024u;
 
-// The tile that stores a cell of a level, and the cell's texel in it.
-fn stored(level: u32, cell: vec2<i32>) -> vec3<u32> {
-    let side = i32(clipmap.side * TILE);
-    var at = clipmap.levels[level].base + cell;
-    at += select(vec2<i32>(0), vec2<i32>(side), at < vec2<i32>(0));
-    at -= select(vec2<i32>(0), vec2<i32>(side), at >= vec2<i32>(side));
-    let texel = vec2<u32>(at);
-    let tile = (clipmap.levels[level].slot * clipmap.side + (texel.y >> TILE_BITS)) * clipmap.side + (texel.x >> TILE_BITS);
-    return vec3<u32>(tile, texel & vec2<u32>(TILE - 1u));
+// A cell's index along each axis of a level's storage: brought into 0 .. n, from at most n outside.
+fn wrapped(l: Level, cell: vec2<i32>) -> vec2<u32> {
+    let side = vec2<i32>(i32(clipmap.side * TILE));
+    var at = l.base + cell;
+    at += select(vec2<i32>(0), side, at < vec2<i32>(0));
+    at -= select(vec2<i32>(0), side, at >= side);
+    return vec2<u32>(at);
 }
 
-fn texel_index(level: u32, cell: vec2<i32>) -> u32 {
-    let at = stored(level, cell);
-    return at.x * TILE_TEXELS + (at.z << TILE_BITS) + at.y;
+// The tile that stores a texel.
+fn tile_of(l: Level, at: vec2<u32>) -> u32 {
+    return (l.slot * clipmap.side + (at.y >> TILE_BITS)) * clipmap.side + (at.x >> TILE_BITS);
 }
 
-fn stored_height(level: u32, cell: vec2<i32>) -> f32 {
-    return heights[texel_index(level, cell)];
+fn texel_index(l: Level, cell: vec2<i32>) -> u32 {
+    let at = wrapped(l, cell);
+    return tile_of(l, at) * TILE_TEXELS + ((at.y & (TILE - 1u)) << TILE_BITS) + (at.x & (TILE - 1u));
+}
+
+fn stored_height(l: Level, cell: vec2<i32>) -> f32 {
+    return heights[texel_index(l, cell)];
+}
+
+// The indices of a patch's corners: 00, 10, 01, 11. The axes are taken apart once each.
+fn corner_indices(l: Level, cell: vec2<i32>) -> vec4<u32> {
+    let a = wrapped(l, cell);
+    let b = wrapped(l, cell + vec2<i32>(1));
+    let x = ((vec2<u32>(a.x, b.x) >> vec2<u32>(TILE_BITS)) << vec2<u32>(2u * TILE_BITS)) + (vec2<u32>(a.x, b.x) & vec2<u32>(TILE - 1u));
+    let y = (((vec2<u32>(a.y, b.y) >> vec2<u32>(TILE_BITS)) * clipmap.side) << vec2<u32>(2u * TILE_BITS))
+        + ((vec2<u32>(a.y, b.y) & vec2<u32>(TILE - 1u)) << vec2<u32>(TILE_BITS));
+    return vec4<u32>(l.slot * clipmap.side * clipmap.side * TILE_TEXELS) + vec4<u32>(x.x, x.y, x.x, x.y) + vec4<u32>(y.x, y.x, y.y, y.y);
+}
+
+fn stored_corners(l: Level, cell: vec2<i32>) -> vec4<f32> {
+    let i = corner_indices(l, cell);
+    return vec4<f32>(heights[i.x], heights[i.y], heights[i.z], heights[i.w]);
 }
 
 // The lowest and highest point of the 2^mip × 2^mip patches around a cell; mip 1 to 6.
-fn stored_bounds(level: u32, cell: vec2<i32>, mip: u32) -> vec2<f32> {
-    let at = stored(level, cell);
+fn stored_bounds(l: Level, cell: vec2<i32>, mip: u32) -> vec2<f32> {
+    let at = wrapped(l, cell);
     let offset = (4096u - (4096u >> (2u * (mip - 1u)))) / 3u;
-    return bounds[at.x * TILE_BOUNDS + offset + ((at.z >> mip) << (TILE_BITS - mip)) + (at.y >> mip)];
+    let node = (at & vec2<u32>(TILE - 1u)) >> vec2<u32>(mip);
+    return bounds[tile_of(l, at) * TILE_BOUNDS + offset + (node.y << (TILE_BITS - mip)) + node.x];
 }
 
 // The cell of the next coarser level that holds a cell.
-fn coarser(level: u32, cell: vec2<i32>) -> vec2<i32> {
-    return ((clipmap.levels[level].base & vec2<i32>(1)) + cell) >> vec2<u32>(1u);
+fn coarser(l: Level, cell: vec2<i32>) -> vec2<i32> {
+    return ((l.base & vec2<i32>(1)) + cell) >> vec2<u32>(1u);
 }
 
-// How far a cell's corner is blended into the next level: 0 inside, 1 at the rim.
-fn blend_at(level: u32, cell: vec2<f32>) -> f32 {
-    let d = abs(cell - clipmap.levels[level].fraction);
-    let inner = clipmap.levels[level].inner;
-    return clamp((max(d.x, d.y) - inner) / (clipmap.levels[level].outer - inner), 0.0, 1.0);
+// How far a point (in texels from the centre's texel) is blended into the next level: 0 inside, 1 at the rim.
+fn blend_at(l: Level, at: vec2<f32>) -> f32 {
+    let d = abs(at - l.fraction);
+    return clamp((max(d.x, d.y) - l.inner) / (l.outer - l.inner), 0.0, 1.0);
+}
+
+// Whether anything of the square low .. low + size, in texels, is blended.
+fn is_blended(l: Level, low: vec2<i32>, size: f32) -> bool {
+    let far = abs(vec2<f32>(low) + 0.5 * size - l.fraction) + 0.5 * size;
+    return max(far.x, far.y) > l.inner;
 }
 
 fn bilinear(h: vec4<f32>, u: f32, v: f32) -> f32 {
     return mix(mix(h.x, h.y, u), mix(h.z, h.w, u), v);
 }
 
-fn stored_corners(level: u32, cell: vec2<i32>) -> vec4<f32> {
-    return vec4<f32>(
-        stored_height(level, cell),
-        stored_height(level, cell + vec2<i32>(1, 0)),
-        stored_height(level, cell + vec2<i32>(0, 1)),
-        stored_height(level, cell + vec2<i32>(1, 1)));
-}
-
 // The heights of a patch's corners (00, 10, 01, 11), blended. Grids nest, so that a patch lies in one coarser patch.
-fn corners(level: u32, cell: vec2<i32>) -> vec4<f32> {
-    var h = stored_corners(level, cell);
+fn corners(l: Level, level: u32, cell: vec2<i32>) -> vec4<f32> {
+    let h = stored_corners(l, cell);
+    if (!is_blended(l, cell, 1.0)) {
+        return h;
+    }
     let low = vec2<f32>(cell);
     let w = vec4<f32>(
-        blend_at(level, low),
-        blend_at(level, low + vec2<f32>(1.0, 0.0)),
-        blend_at(level, low + vec2<f32>(0.0, 1.0)),
-        blend_at(level, low + vec2<f32>(1.0, 1.0)));
-    if (any(w > vec4<f32>(0.0)) && level + 1u < clipmap.count) {
-        let c = stored_corners(level + 1u, coarser(level, cell));
-        let s = 0.5 * vec2<f32>((clipmap.levels[level].base + cell) & vec2<i32>(1));
-        h = mix(h, vec4<f32>(
-            bilinear(c, s.x, s.y), bilinear(c, s.x + 0.5, s.y),
-            bilinear(c, s.x, s.y + 0.5), bilinear(c, s.x + 0.5, s.y + 0.5)), w);
-    }
-    return h;
+        blend_at(l, low),
+        blend_at(l, low + vec2<f32>(1.0, 0.0)),
+        blend_at(l, low + vec2<f32>(0.0, 1.0)),
+        blend_at(l, low + vec2<f32>(1.0, 1.0)));
+    let c = stored_corners(clipmap.levels[level + 1u], coarser(l, cell));
+    let s = 0.5 * vec2<f32>((l.base + cell) & vec2<i32>(1));
+    return mix(h, vec4<f32>(
+        bilinear(c, s.x, s.y), bilinear(c, s.x + 0.5, s.y),
+        bilinear(c, s.x, s.y + 0.5), bilinear(c, s.x + 0.5, s.y + 0.5)), w);
 }
 
-// The highest point that the drawn surface can have in the 2^mip × 2^mip patches around a cell.
-fn node_bounds(level: u32, cell: vec2<i32>, low: vec2<i32>, mip: u32) -> vec2<f32> {
-    var b = stored_bounds(level, cell, mip);
-    let half = 0.5 * f32(1u << mip);
-    let far = abs(vec2<f32>(low) + half - clipmap.levels[level].fraction) + half;
-    if (max(far.x, far.y) > clipmap.levels[level].inner && level + 1u < clipmap.count) {
-        let c = stored_bounds(level + 1u, coarser(level, cell), max(mip - 1u, 1u));
+// The lowest and highest point that the drawn surface can have in a node, whose first cell is `low`.
+fn node_bounds(l: Level, level: u32, cell: vec2<i32>, low: vec2<i32>, mip: u32) -> vec2<f32> {
+    var b = stored_bounds(l, cell, mip);
+    if (is_blended(l, low, f32(1u << mip))) {
+        let c = stored_bounds(clipmap.levels[level + 1u], coarser(l, cell), max(mip, 2u) - 1u);
         b = vec2<f32>(min(b.x, c.x), max(b.y, c.y));
     }
     return b;

@@ -18,41 +18,40 @@ fn unpack_normal(word: u32) -> vec3<f32> {
     return vec3<f32>(xz.x, sqrt(max(1.0 - dot(xz, xz), 1e-4)), xz.y);
 }
 
-fn light_at(level: u32, cell: vec2<i32>) -> f32 {
-    let at = stored(level, cell);
-    return lights[at.x * TILE_LIGHTS + ((at.z >> 1u) << 5u) + (at.y >> 1u)];
+fn light_at(l: Level, cell: vec2<i32>) -> f32 {
+    let at = wrapped(l, cell);
+    let texel = (at & vec2<u32>(TILE - 1u)) >> vec2<u32>(1u);
+    return lights[tile_of(l, at) * TILE_LIGHTS + (texel.y << 5u) + texel.x];
 }
 
 // What one level holds at a point of the ground, interpolated.
-fn level_look(level: u32, p: vec2<f32>) -> Look {
-    let l = clipmap.levels[level];
+fn level_look(l: Level, p: vec2<f32>) -> Look {
     let at = p * l.per_metre + l.fraction;
     let cell = vec2<i32>(floor(at));
     let f = at - floor(at);
     let w = vec4<f32>((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
-    var normal = vec3<f32>(0.0);
-    var colour = vec4<f32>(0.0);
-    for (var i = 0; i < 4; i++) {
-        let look = looks[texel_index(level, cell + vec2<i32>(i & 1, i >> 1u))];
-        normal += w[i] * unpack_normal(look.x);
-        colour += w[i] * unpack4x8unorm(look.y);
-    }
+    let i = corner_indices(l, cell);
+    let stored = array<vec2<u32>, 4>(looks[i.x], looks[i.y], looks[i.z], looks[i.w]);
+    let normal = w.x * unpack_normal(stored[0].x) + w.y * unpack_normal(stored[1].x)
+        + w.z * unpack_normal(stored[2].x) + w.w * unpack_normal(stored[3].x);
+    let colour = w.x * unpack4x8unorm(stored[0].y) + w.y * unpack4x8unorm(stored[1].y)
+        + w.z * unpack4x8unorm(stored[2].y) + w.w * unpack4x8unorm(stored[3].y);
     // The light's lattice holds every other texel.
     let odd = (l.base + cell) & vec2<i32>(1);
     let even = cell - odd;
     let g = 0.5 * (vec2<f32>(odd) + f);
     let light = bilinear(vec4<f32>(
-        light_at(level, even), light_at(level, even + vec2<i32>(2, 0)),
-        light_at(level, even + vec2<i32>(0, 2)), light_at(level, even + vec2<i32>(2, 2))), g.x, g.y);
+        light_at(l, even), light_at(l, even + vec2<i32>(2, 0)),
+        light_at(l, even + vec2<i32>(0, 2)), light_at(l, even + vec2<i32>(2, 2))), g.x, g.y);
     return Look(normal, colour.rgb * colour.rgb, colour.a, light);
 }
 
 fn look_at(level: u32, p: vec2<f32>) -> Look {
-    var look = level_look(level, p);
     let l = clipmap.levels[level];
-    let w = blend_at(level, p * l.per_metre + l.fraction);
-    if (w > 0.0 && level + 1u < clipmap.count) {
-        let c = level_look(level + 1u, p);
+    var look = level_look(l, p);
+    let w = blend_at(l, p * l.per_metre + l.fraction);
+    if (w > 0.0) {
+        let c = level_look(clipmap.levels[level + 1u], p);
         look = Look(mix(look.normal, c.normal, w), mix(look.albedo, c.albedo, w), mix(look.gloss, c.gloss, w), mix(look.light, c.light, w));
     }
     look.normal = normalize(look.normal);

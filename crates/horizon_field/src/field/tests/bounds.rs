@@ -19,7 +19,7 @@ fn check<const D: usize>(field: &Field, random: &mut Random, boxes: u32) -> u32 
         let Bound { v, g, rest, low, high, slope } = bound;
         let context = || format!("{bound:?} about {centre:?} ± {half:?} of {field:?}");
         assert!(rest.is_finite() && rest >= 0.0 && low <= high, "{}", context());
-        let rounding = 1e-9 * (lowest.abs() + highest.abs());
+        let rounding = 1e-9 * (1.0 + lowest.abs() + highest.abs());
         assert!(low >= lowest - rounding && high <= highest + rounding, "{lowest} to {highest}: {}", context());
         for point in 0..8 + (1 << D) {
             let d: [f64; D] = core::array::from_fn(|k| {
