@@ -16,6 +16,8 @@ use crate::scene::{Flight, Loading, ScenePlugin};
 
 /// Frames of a film, without `--frames`.
 const FRAMES: u32 = 120;
+/// The path goes on after the film's end, and so do the meshes along it, for so many metres.
+const VISTA: f32 = 1000.0;
 /// A world that has not come together after this time never will.
 const PATIENCE: Duration = Duration::from_secs(600);
 
@@ -26,7 +28,7 @@ pub fn run(options: &Options) -> Result<(), Failure> {
     let [width, height] = options.size;
     let scene = ScenePlugin {
         world: options.asset_path(),
-        length: frames as f32 / second * options.speed,
+        length: frames as f32 / second * options.speed + VISTA,
         speed: options.speed,
         playing: false,
     };

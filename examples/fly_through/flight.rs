@@ -63,10 +63,10 @@ impl Path {
         let ahead = (self.at(metres + LOOK_AHEAD) - here).normalize_or(Vec3::NEG_Z);
         let mut pose = Transform::from_translation(here).looking_to(ahead, Vec3::Y);
         pose.rotate_local_x(self.pitch);
-        // A coordinated turn banks by atan(v² κ / g); a third of it is enough for the eye.
+        // A coordinated turn banks by atan(v² κ / g); a sixth of it is enough for the eye.
         let (now, then) = (self.heading(metres), self.heading(metres + SPACING));
         let curvature = now.cross(then).y / SPACING;
-        pose.rotate_local_z((speed * speed * curvature / 9.81).atan() / 3.0);
+        pose.rotate_local_z((speed * speed * curvature / 9.81).atan() / 6.0);
         pose
     }
 }

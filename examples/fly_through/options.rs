@@ -28,7 +28,7 @@ pub struct Options {
     #[arg(long, value_name = "N", default_value_t = 30, value_parser = clap::value_parser!(u16).range(1..))]
     pub fps: u16,
     /// Speed on the scripted path, in metres per second.
-    #[arg(long, value_name = "M/S", default_value_t = 80.0)]
+    #[arg(long, value_name = "M/S", default_value_t = 120.0)]
     pub speed: f32,
 }
 

@@ -77,7 +77,7 @@ pub fn spawn(
             commands.spawn((Mesh3d(meshes.add(mesh)), MeshMaterial3d(material.clone()), part, ChildOf(prop)));
         }
     };
-    for round in 0..(path.length() / PERIOD).ceil() as u32 {
+    for round in 0..((path.length() / PERIOD) as u32).max(1) {
         let side = if round.is_multiple_of(2) { 1.0 } else { -1.0 };
         for (along, aside, shape, size, rest, colour) in SITES {
             let along = along + round as f32 * PERIOD;

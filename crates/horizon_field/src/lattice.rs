@@ -87,8 +87,8 @@ impl<const D: usize> Layer<D> {
     pub fn per_metre<T: Real>(&self, g: [T; D]) -> [T; D] {
         core::array::from_fn(|column| {
             let mut sum = T::ZERO;
-            for row in 0..D {
-                sum += T::of(self.matrix[row][column]) * g[row];
+            for (row, g) in self.matrix.iter().zip(g) {
+                sum += T::of(row[column]) * g;
             }
             sum
         })

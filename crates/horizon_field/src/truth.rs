@@ -95,7 +95,7 @@ impl TruthPicture {
 }
 
 /// Rays per edge of a tile, which start together where their beam comes near the ground.
-const TILE: usize = 16;
+const TILE: usize = 8;
 
 /// Casts the rays of one tile, whose first one is at the grid's `[left, top]`, of a band of the grid's rows.
 fn look(

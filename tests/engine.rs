@@ -1,0 +1,157 @@
+//! What the plugin costs and survives as a part of Bevy.
+
+use bevy::camera::Viewport;
+use bevy::prelude::*;
+use bevy::render::RenderApp;
+use bevy::render::render_resource::{CachedPipelineState, PipelineCache};
+use bevy::render::renderer::RenderDevice;
+use bevy_horizon::prelude::*;
+use bevy_horizon::render::HorizonSkyPlugin;
+
+use crate::stage::Stage;
+
+struct NoPlugins;
+
+impl Plugin for NoPlugins {
+    fn build(&self, _: &mut App) {}
+}
+
+/// Pipelines, device allocations and those of them that are ours, after some frames.
+fn counts(stage: &Stage) -> (usize, usize, Vec<String>) {
+    let render = stage.off.app.sub_app(RenderApp).world();
+    let report = render.resource::<RenderDevice>().wgpu_device().generate_allocator_report();
+    let names: Vec<String> = report.map(|r| r.allocations.into_iter().map(|a| a.name).collect()).unwrap_or_default();
+    let ours = names.iter().filter(|name| name.contains("horizon")).cloned().collect();
+    (render.resource::<PipelineCache>().pipelines().count(), names.len(), ours)
+}
+
+fn with_mesh(stage: &mut Stage) {
+    stage.light();
+    let mesh = stage.world().resource_mut::<Assets<Mesh>>().add(Sphere::new(1.0));
+    let material = stage.world().resource_mut::<Assets<StandardMaterial>>().add(StandardMaterial::default());
+    stage.world().spawn((Mesh3d(mesh), MeshMaterial3d(material), Transform::from_xyz(0.0, 0.0, -5.0)));
+    (0..12).for_each(|_| stage.off.update());
+}
+
+#[test]
+fn without_a_world_nothing_is_built() {
+    let mut bare = Stage::with_plugins(NoPlugins, 160, 90);
+    let camera = bare.camera;
+    bare.world().entity_mut(camera).remove::<HorizonCamera>();
+    with_mesh(&mut bare);
+    let mut idle = Stage::new(160, 90);
+    with_mesh(&mut idle);
+    let (bare, idle) = (counts(&bare), counts(&idle));
+    println!("bare Bevy {} pipelines, {} allocations; with the plugin {} and {}", bare.0, bare.1, idle.0, idle.1);
+    assert!(bare.1 > 0, "the device must report its allocations");
+    assert_eq!(bare.0, idle.0, "pipelines");
+    assert_eq!(bare.1, idle.1, "allocations");
+    assert!(idle.2.is_empty(), "{:?}", idle.2);
+}
+
+#[test]
+fn terrain_adds_only_its_own() {
+    let mut stage = Stage::new(160, 90);
+    with_mesh(&mut stage);
+    let before = counts(&stage);
+    stage.world().spawn(Terrain::default());
+    stage.settle();
+    let with = counts(&stage);
+    println!("terrain adds {} pipelines: {:?}", with.0 - before.0, with.2);
+    // Fill, pyramid, light and ground.
+    assert_eq!(with.0 - before.0, 4);
+    assert!(with.2.iter().any(|name| name.contains("horizon_heights")));
+}
+
+#[test]
+fn every_pipeline_compiles() {
+    // A shader that is not found, or not valid, is tried again for ever in silence.
+    for msaa in [Msaa::Off, Msaa::Sample4] {
+        for hdr in [true, false] {
+            let mut stage = Stage::new(160, 90);
+            stage.light();
+            stage.world().spawn((Terrain::default(), Atmosphere::default()));
+            let camera = stage.camera;
+            stage.world().entity_mut(camera).insert(msaa).remove::<crate::stage::KeepDepth>();
+            if !hdr {
+                stage.world().entity_mut(camera).remove::<bevy::camera::Hdr>();
+            }
+            stage.look(Transform::from_xyz(0.0, 500.0, 0.0).looking_to(Vec3::new(0.0, -0.3, -1.0), Vec3::Y));
+            stage.settle();
+            let picture = stage.off.screenshot();
+            let cache = stage.off.app.sub_app(RenderApp).world().resource::<PipelineCache>();
+            for pipeline in cache.pipelines() {
+                assert!(matches!(pipeline.state, CachedPipelineState::Ok(_)), "{:?}", pipeline.descriptor);
+            }
+            // Ground at the bottom, sky at the top, and neither black nor white.
+            for y in [5, 85] {
+                let pixel = picture.get_pixel(80, y).0;
+                assert!(pixel[..3].iter().any(|c| *c > 20) && pixel[..3].iter().any(|c| *c < 250), "{pixel:?} in {msaa:?}, HDR {hdr}");
+            }
+        }
+    }
+}
+
+#[test]
+fn several_cameras_and_viewports_each_show_the_world() {
+    let mut stage = Stage::new(320, 180);
+    stage.light();
+    stage.world().spawn((Terrain::default(), Atmosphere::default()));
+    let look = Transform::from_xyz(0.0, 500.0, 0.0).looking_to(Vec3::new(0.0, -0.3, -1.0), Vec3::Y);
+    stage.look(look);
+    let camera = stage.camera;
+    let half = |x| Viewport { physical_position: UVec2::new(x, 0), physical_size: UVec2::new(160, 180), ..default() };
+    stage.world().get_mut::<Camera>(camera).unwrap().viewport = Some(half(0));
+    let target = stage.off.target();
+    stage.world().spawn((
+        Camera3d::default(),
+        target,
+        Camera { order: 1, clear_color: ClearColorConfig::None, viewport: Some(half(160)), ..default() },
+        bevy::camera::Hdr,
+        Msaa::Off,
+        bevy::camera::Exposure { ev100: 14.5 },
+        bevy::core_pipeline::tonemapping::Tonemapping::AgX,
+        Projection::Perspective(PerspectiveProjection { fov: crate::stage::FOV, ..default() }),
+        HorizonCamera::default(),
+        look,
+    ));
+    stage.settle();
+    let picture = stage.off.screenshot();
+    // The same view twice, side by side: the same picture.
+    let differing = (0..180).flat_map(|y| (0..160).map(move |x| (x, y))).filter(|(x, y)| {
+        let (a, b) = (picture.get_pixel(*x, *y).0, picture.get_pixel(x + 160, *y).0);
+        a.iter().zip(b).any(|(a, b)| a.abs_diff(b) > 2)
+    });
+    assert!(differing.count() < 40);
+}
+
+#[test]
+fn resizing_and_removal_in_use_are_survived() {
+    let mut stage = Stage::new(64, 64);
+    stage.light();
+    let terrain = stage.world().spawn((Terrain::default(), Atmosphere::default())).id();
+    stage.settle();
+    for size in [1, 3, 200, 64] {
+        let image = stage.off.image();
+        let mut images = stage.world().resource_mut::<Assets<Image>>();
+        images.get_mut(&image).unwrap().resize(bevy::render::render_resource::Extent3d {
+            width: size,
+            height: size,
+            depth_or_array_layers: 1,
+        });
+        (0..4).for_each(|_| stage.off.update());
+    }
+    stage.world().entity_mut(terrain).remove::<Atmosphere>();
+    stage.off.update();
+    stage.world().entity_mut(terrain).insert(Atmosphere::default()).remove::<Terrain>();
+    (0..3).for_each(|_| stage.off.update());
+    stage.world().entity_mut(terrain).insert(Terrain::default());
+    stage.settle();
+}
+
+#[test]
+fn the_sky_can_be_left_out() {
+    let mut stage = Stage::with_plugins(HorizonPlugins.build().disable::<HorizonSkyPlugin>(), 64, 64);
+    stage.world().spawn((Terrain::default(), Atmosphere::default()));
+    stage.settle();
+}
