@@ -10,7 +10,12 @@ const SIZE: [u32; 2] = [320, 180];
 const EYE: Vec3 = Vec3::new(0.0, 260.0, 0.0);
 
 fn hills() -> Terrain {
-    Terrain::new(Field::Fractal(horizon_field::field::Fractal { wavelength: 900.0, amplitude: 220.0, octaves: 9.0, ..default() }))
+    Terrain::new(Field::Fractal(horizon_field::field::Fractal {
+        wavelength: 900.0,
+        amplitude: 220.0,
+        octaves: 9.0,
+        ..default()
+    }))
 }
 
 /// Spheres and blocks: half buried, floating, behind ridges.
@@ -61,7 +66,13 @@ fn assert_nearer(projection: Option<Projection>) {
     for ((both, ground), meshes) in both.iter().zip(&ground).zip(&meshes) {
         // Reverse z: the nearer is the larger; what is drawn is one or the other, to the bit.
         assert_eq!(*both, ground.max(*meshes));
-        of[if *both == 0.0 { 0 } else if ground >= meshes { 1 } else { 2 }] += 1;
+        of[if *both == 0.0 {
+            0
+        } else if ground >= meshes {
+            1
+        } else {
+            2
+        }] += 1;
     }
     println!("sky {}, ground {}, meshes {}", of[0], of[1], of[2]);
     assert!(of[1] > 10_000 && of[2] > 1_000, "both must show: {of:?}");
@@ -98,10 +109,30 @@ fn layers_visibility_and_transforms_are_honoured() {
     let count = |depth: &[f32]| depth.iter().filter(|depth| **depth > 0.0).count();
     let plain = shown(|_, _, _| {});
     assert!(count(&plain) > 10_000);
-    assert_eq!(count(&shown(|world, terrain, _| { world.entity_mut(terrain).insert(Visibility::Hidden); })), 0);
-    assert_eq!(count(&shown(|world, terrain, _| { world.entity_mut(terrain).insert(RenderLayers::layer(3)); })), 0);
-    assert_eq!(count(&shown(|world, _, camera| { world.entity_mut(camera).remove::<HorizonCamera>(); })), 0);
-    assert_eq!(count(&shown(|world, terrain, _| { world.despawn(terrain); })), 0);
+    assert_eq!(
+        count(&shown(|world, terrain, _| {
+            world.entity_mut(terrain).insert(Visibility::Hidden);
+        })),
+        0
+    );
+    assert_eq!(
+        count(&shown(|world, terrain, _| {
+            world.entity_mut(terrain).insert(RenderLayers::layer(3));
+        })),
+        0
+    );
+    assert_eq!(
+        count(&shown(|world, _, camera| {
+            world.entity_mut(camera).remove::<HorizonCamera>();
+        })),
+        0
+    );
+    assert_eq!(
+        count(&shown(|world, terrain, _| {
+            world.despawn(terrain);
+        })),
+        0
+    );
     // Ground and camera moved alike: the same picture.
     let moved = shown(|world, terrain, camera| {
         let by = Vec3::new(512.0, 64.0, -256.0);

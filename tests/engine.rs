@@ -86,7 +86,10 @@ fn every_pipeline_compiles() {
             // Ground at the bottom, sky at the top, and neither black nor white.
             for y in [5, 85] {
                 let pixel = picture.get_pixel(80, y).0;
-                assert!(pixel[..3].iter().any(|c| *c > 20) && pixel[..3].iter().any(|c| *c < 250), "{pixel:?} in {msaa:?}, HDR {hdr}");
+                assert!(
+                    pixel[..3].iter().any(|c| *c > 20) && pixel[..3].iter().any(|c| *c < 250),
+                    "{pixel:?} in {msaa:?}, HDR {hdr}"
+                );
             }
         }
     }

@@ -33,11 +33,16 @@ fn compare(name: &str, picture: &RgbaImage) {
     let actual = env::temp_dir().join(format!("{name}.png"));
     picture.save(&actual).unwrap();
     let Ok(expected) = image::open(&golden) else {
-        panic!("{} is missing: look at {}, and if it is right, run `cargo bless {name}`", golden.display(), actual.display());
+        panic!(
+            "{} is missing: look at {}, and if it is right, run `cargo bless {name}`",
+            golden.display(),
+            actual.display()
+        );
     };
     let expected = expected.to_rgba8();
     assert_eq!(expected.dimensions(), picture.dimensions(), "{name}");
-    let error = ldr_flip(&flip_image(&expected), &flip_image(picture), DEFAULT_PPD).expect("the pictures are comparable");
+    let error =
+        ldr_flip(&flip_image(&expected), &flip_image(picture), DEFAULT_PPD).expect("the pictures are comparable");
     let mean = error.statistics().mean;
     println!("{name}: mean FLIP {mean:.4}");
     assert!(mean <= TOLERANCE, "{name}: mean FLIP {mean:.4}; compare {} with {}", actual.display(), golden.display());

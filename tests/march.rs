@@ -31,7 +31,8 @@ fn canyon() -> Field {
             ..default()
         }),
         Field::Clamp(horizon_field::field::Clamp {
-            field: Field::Fractal(Fractal { wavelength: 26.0, amplitude: 330.0, octaves: 1.0, seed: 3, ..default() }).into(),
+            field: Field::Fractal(Fractal { wavelength: 26.0, amplitude: 330.0, octaves: 1.0, seed: 3, ..default() })
+                .into(),
             low: 105.0,
             high: 160.0,
         }),
@@ -51,7 +52,14 @@ struct View {
 const VIEWS: [View; 6] = [
     // Level, and along the lattice: the middle column's rays have x = 0, the middle row's y = 0.
     View { name: "valley", field: mountains, at: [120.0, 40.0], above: 1.7, forward: [0.0, 0.0, -1.0], far: 30_000.0 },
-    View { name: "ridge", field: mountains, at: [900.5, -340.25], above: 60.0, forward: [1.0, -0.05, 0.0], far: 30_000.0 },
+    View {
+        name: "ridge",
+        field: mountains,
+        at: [900.5, -340.25],
+        above: 60.0,
+        forward: [1.0, -0.05, 0.0],
+        far: 30_000.0,
+    },
     View { name: "aerial", field: mountains, at: [0.0, 0.0], above: 1500.0, forward: [0.6, -0.5, -0.7], far: 30_000.0 },
     View { name: "down", field: mountains, at: [0.0, 0.0], above: 400.0, forward: [0.0, -1.0, 0.0], far: 30_000.0 },
     View { name: "canyon", field: canyon, at: [10.0, 25.0], above: 12.0, forward: [0.3, -0.02, -1.0], far: 4_000.0 },

@@ -10,8 +10,8 @@ use bevy::core_pipeline::tonemapping::Tonemapping;
 use bevy::prelude::*;
 use bevy::render::extract_component::{ExtractComponent, ExtractComponentPlugin};
 use bevy::render::render_resource::{
-    Buffer, BufferDescriptor, BufferUsages, Extent3d, MapMode, Origin3d, PollType, TexelCopyBufferInfo, TexelCopyBufferLayout,
-    TexelCopyTextureInfo, TextureAspect, TextureUsages,
+    Buffer, BufferDescriptor, BufferUsages, Extent3d, MapMode, Origin3d, PollType, TexelCopyBufferInfo,
+    TexelCopyBufferLayout, TexelCopyTextureInfo, TextureAspect, TextureUsages,
 };
 use bevy::render::renderer::{RenderContext, RenderDevice, ViewQuery};
 use bevy::render::view::ViewDepthTexture;
@@ -56,7 +56,12 @@ fn keep_depth(view: ViewQuery<(&ViewDepthTexture, &KeepDepth)>, kept: Res<Kept>,
         mapped_at_creation: false,
     });
     ctx.command_encoder().copy_texture_to_buffer(
-        TexelCopyTextureInfo { texture: &depth.texture, mip_level: 0, origin: Origin3d::ZERO, aspect: TextureAspect::DepthOnly },
+        TexelCopyTextureInfo {
+            texture: &depth.texture,
+            mip_level: 0,
+            origin: Origin3d::ZERO,
+            aspect: TextureAspect::DepthOnly,
+        },
         TexelCopyBufferInfo {
             buffer: &buffer,
             layout: TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None },
@@ -82,10 +87,9 @@ impl Stage {
     pub fn with_plugins<M>(plugins: impl Plugins<M>, width: u32, height: u32) -> Self {
         let mut off = Offscreen::new((offscreen::plugins(), KeepDepthPlugin, plugins), width, height);
         let target = off.target();
-        let mut camera_3d = Camera3d::default();
-        camera_3d.depth_texture_usages = (TextureUsages::RENDER_ATTACHMENT | TextureUsages::COPY_SRC).into();
+        let depth_texture_usages = (TextureUsages::RENDER_ATTACHMENT | TextureUsages::COPY_SRC).into();
         let camera = off.app.world_mut().spawn((
-            camera_3d,
+            Camera3d { depth_texture_usages, ..default() },
             target,
             Hdr,
             Msaa::Off,
@@ -136,7 +140,8 @@ impl Stage {
     pub fn depth(&mut self) -> Vec<f32> {
         self.off.update();
         let world = self.off.app.world();
-        let (buffer, [width, height, row]) = world.resource::<Kept>().0.lock().unwrap().take().expect("a view kept its depth");
+        let (buffer, [width, height, row]) =
+            world.resource::<Kept>().0.lock().unwrap().take().expect("a view kept its depth");
         let device = self.off.app.sub_app(RenderApp).world().resource::<RenderDevice>();
         let slice = buffer.slice(..);
         slice.map_async(MapMode::Read, |result| result.expect("the buffer can be mapped"));

@@ -70,7 +70,12 @@ fn is_frame(name: &str) -> bool {
     number.is_some_and(|number| number.len() >= 4 && number.bytes().all(|byte| byte.is_ascii_digit()))
 }
 
-fn film_writer(path: &Path, [width, height]: [u32; 2], count: u32, fps: u16) -> Result<Writer<BufWriter<File>>, Failure> {
+fn film_writer(
+    path: &Path,
+    [width, height]: [u32; 2],
+    count: u32,
+    fps: u16,
+) -> Result<Writer<BufWriter<File>>, Failure> {
     let file = File::create(path).map_err(|error| format!("{}: {error}", path.display()))?;
     let mut encoder = Encoder::new(BufWriter::new(file), width, height);
     encoder.set_color(ColorType::Rgb);

@@ -67,11 +67,8 @@ pub fn spawn(
     path: &Path,
 ) {
     let mut put = |shape: Shape, size: f32, place: Transform, colour: Srgba| {
-        let material = materials.add(StandardMaterial {
-            base_color: colour.into(),
-            perceptual_roughness: 0.6,
-            ..default()
-        });
+        let material =
+            materials.add(StandardMaterial { base_color: colour.into(), perceptual_roughness: 0.6, ..default() });
         let prop = commands.spawn((Prop, place, Visibility::default())).id();
         for (mesh, part) in parts(shape, size) {
             commands.spawn((Mesh3d(meshes.add(mesh)), MeshMaterial3d(material.clone()), part, ChildOf(prop)));
@@ -107,7 +104,8 @@ fn site(ground: &Ground, path: &Path, along: f32, aside: f32, shape: Shape, size
         Arch | Ring => 0.0,
         _ => 0.013 * along,
     };
-    Transform::from_translation(middle.with_y(y)).looking_to(heading, Vec3::Y) * Transform::from_rotation(Quat::from_rotation_y(turn))
+    Transform::from_translation(middle.with_y(y)).looking_to(heading, Vec3::Y)
+        * Transform::from_rotation(Quat::from_rotation_y(turn))
 }
 
 /// The meshes of a shape of this height, about its middle.
@@ -121,7 +119,12 @@ fn parts(shape: Shape, size: f32) -> Vec<(Mesh, Transform)> {
             Torus { minor_radius: 0.1 * size, major_radius: 0.4 * size }.into(),
             Transform::from_rotation(Quat::from_rotation_x(0.5 * PI)),
         )],
-        Obelisk => alone(ConicalFrustum { radius_top: 0.02 * size, radius_bottom: 0.11 * size, height: size }.mesh().resolution(4).into()),
+        Obelisk => alone(
+            ConicalFrustum { radius_top: 0.02 * size, radius_bottom: 0.11 * size, height: size }
+                .mesh()
+                .resolution(4)
+                .into(),
+        ),
         Arch => {
             let pillar = Cuboid::new(0.18 * size, 0.8 * size, 0.2 * size);
             let lintel = Cuboid::new(size, 0.2 * size, 0.24 * size);
@@ -146,7 +149,8 @@ fn behind_ridges(ground: &Ground, path: &Path) -> Vec<Vec3> {
             let foot = eye + towards * 15.0 * step as f32;
             foot.with_y(ground.height(foot))
         });
-        let mut over_ridge = place.filter(|foot| hidden(*foot + Vec3::Y * 0.35 * TALL) && !hidden(*foot + Vec3::Y * 0.75 * TALL));
+        let mut over_ridge =
+            place.filter(|foot| hidden(*foot + Vec3::Y * 0.35 * TALL) && !hidden(*foot + Vec3::Y * 0.75 * TALL));
         found.extend(over_ridge.next().map(|foot| foot + Vec3::Y * 0.5 * TALL));
     }
     found.truncate(BEHIND_RIDGES);

@@ -168,8 +168,12 @@ fn line_of(text: &str, error: &TerrainError) -> Option<usize> {
     let name = path.rsplit('.').next()?.split('[').next()?;
     let has = |line: &str| {
         let Some((_, rest)) = line.split_once(&format!("{name}:")) else { return false };
-        let mut numbers = rest.split(|c: char| !(c.is_ascii_alphanumeric() || "+-.".contains(c))).filter_map(|n| n.parse::<f64>().ok());
-        value.is_none_or(|value| numbers.any(|n| n == value || (n.is_nan() && value.is_nan()) || n as f32 == value as f32))
+        let mut numbers = rest
+            .split(|c: char| !(c.is_ascii_alphanumeric() || "+-.".contains(c)))
+            .filter_map(|n| n.parse::<f64>().ok());
+        value.is_none_or(|value| {
+            numbers.any(|n| n == value || (n.is_nan() && value.is_nan()) || n as f32 == value as f32)
+        })
     };
     text.lines().position(has).map(|at| at + 1)
 }
@@ -205,7 +209,8 @@ impl AssetLoader for WorldLoader {
                 images.insert(path.clone(), HeightImage::from_png(&bytes).map_err(failed)?);
             }
             terrain.images = images.into_iter().collect();
-            CompiledTerrain::new(terrain).map_err(|source| WorldFileError::Value { line: line_of(&text, &source), source })?;
+            CompiledTerrain::new(terrain)
+                .map_err(|source| WorldFileError::Value { line: line_of(&text, &source), source })?;
         }
         Ok(world)
     }
@@ -293,11 +298,8 @@ fn apply_worlds(
         #[cfg(feature = "render")]
         if let Some(sun) = &file.sun {
             let [r, g, b] = sun.colour;
-            let light = DirectionalLight {
-                color: Color::linear_rgb(r, g, b),
-                illuminance: sun.illuminance,
-                ..default()
-            };
+            let light =
+                DirectionalLight { color: Color::linear_rgb(r, g, b), illuminance: sun.illuminance, ..default() };
             commands.spawn((WorldSun, light, sun.transform(), ChildOf(owner)));
             commands.insert_resource(GlobalAmbientLight {
                 color: Color::linear_rgb(0.62, 0.78, 1.0),

@@ -45,9 +45,5 @@ pub const fn hash2(cell: [i64; 2], seed: u32) -> u32 {
 /// The hash of a cell of space.
 #[inline(always)]
 pub const fn hash3(cell: [i64; 3], seed: u32) -> u32 {
-    mix3(
-        axis(cell[0], axis_seed(seed, 0)),
-        axis(cell[1], axis_seed(seed, 1)),
-        axis(cell[2], axis_seed(seed, 2)),
-    )
+    mix3(axis(cell[0], axis_seed(seed, 0)), axis(cell[1], axis_seed(seed, 1)), axis(cell[2], axis_seed(seed, 2)))
 }

@@ -126,7 +126,13 @@ pub fn extract_atmospheres(
 type Cameras<'w, 's> = Query<
     'w,
     's,
-    (RenderEntity, &'static HorizonCamera, &'static Camera, Option<&'static RenderLayers>, Option<&'static AmbientLight>),
+    (
+        RenderEntity,
+        &'static HorizonCamera,
+        &'static Camera,
+        Option<&'static RenderLayers>,
+        Option<&'static AmbientLight>,
+    ),
 >;
 
 pub fn extract_cameras(

@@ -9,14 +9,8 @@ pub const LIGHT: Handle<Shader> = uuid_handle!("6e3f0f52-7b57-4b0f-9f0a-0d6a4d1c
 const GEOMETRY_HDR: Handle<Shader> = uuid_handle!("6e3f0f52-7b57-4b0f-9f0a-0d6a4d1c8a03");
 const GEOMETRY_LDR: Handle<Shader> = uuid_handle!("6e3f0f52-7b57-4b0f-9f0a-0d6a4d1c8a04");
 const SKY: [[Handle<Shader>; 2]; 2] = [
-    [
-        uuid_handle!("6e3f0f52-7b57-4b0f-9f0a-0d6a4d1c8a05"),
-        uuid_handle!("6e3f0f52-7b57-4b0f-9f0a-0d6a4d1c8a06"),
-    ],
-    [
-        uuid_handle!("6e3f0f52-7b57-4b0f-9f0a-0d6a4d1c8a07"),
-        uuid_handle!("6e3f0f52-7b57-4b0f-9f0a-0d6a4d1c8a08"),
-    ],
+    [uuid_handle!("6e3f0f52-7b57-4b0f-9f0a-0d6a4d1c8a05"), uuid_handle!("6e3f0f52-7b57-4b0f-9f0a-0d6a4d1c8a06")],
+    [uuid_handle!("6e3f0f52-7b57-4b0f-9f0a-0d6a4d1c8a07"), uuid_handle!("6e3f0f52-7b57-4b0f-9f0a-0d6a4d1c8a08")],
 ];
 
 const SURFACE: &str = include_str!("cache/surface.wgsl");

@@ -15,6 +15,8 @@ pub struct LevelUniform {
     pub outer: f32,
     pub base: IVec2,
     pub fraction: Vec2,
+    pub low: IVec2,
+    pub high: IVec2,
     #[shader(size(16))]
     pub slot: u32,
 }
@@ -38,6 +40,8 @@ impl ClipmapUniform {
                 outer: from.outer,
                 base: IVec2::from_array(from.base),
                 fraction: Vec2::from_array(from.fraction),
+                low: IVec2::from_array(from.low),
+                high: IVec2::from_array(from.high),
                 slot: from.slot,
             };
         }

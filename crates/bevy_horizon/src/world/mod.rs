@@ -9,10 +9,10 @@ mod sun;
 mod terrain;
 
 pub use atmosphere::Atmosphere;
-pub use compiled::{CompiledTerrain, TerrainError, TerrainRejected};
 #[cfg(feature = "render")]
 pub(crate) use compiled::TerrainFields;
 pub(crate) use compiled::compile_terrain;
+pub use compiled::{CompiledTerrain, TerrainError, TerrainRejected};
 pub use material::{NoiseLayer, TerrainMaterial};
 pub use origin::WorldOrigin;
 pub use param::{ParamError, check_params};

@@ -134,7 +134,8 @@ impl<const D: usize> Compiled<D> {
         };
         let tree = self.tree();
         let own = tree.layers.iter().map(|layer| of(&|r, c| layer.matrix[r][c], D));
-        let planes = tree.planes.iter().flat_map(|plane| plane.layers.iter().map(|layer| of(&|r, c| layer.matrix[r][c], 2)));
+        let planes =
+            tree.planes.iter().flat_map(|plane| plane.layers.iter().map(|layer| of(&|r, c| layer.matrix[r][c], 2)));
         1.0 / own.chain(planes).fold(0.0, f64::max)
     }
 }

@@ -6,8 +6,8 @@ use std::collections::BTreeSet;
 
 use super::compile::Compiled;
 use super::curve::{self, Curve};
-use super::{compile, image};
 use super::tree::{FractalNode, Node, Tree};
+use super::{compile, image};
 use crate::fractal::{self, Rule};
 use crate::noise::Basis;
 
@@ -64,7 +64,10 @@ pub fn module<const D: usize>(group: u32, fields: &[(&str, &Compiled<D>)]) -> Ke
     .into_iter()
     .enumerate()
     {
-        line(&mut source, format_args!("@group({group}) @binding({binding}) var<storage, read> field_{name}: array<{of}>;"));
+        line(
+            &mut source,
+            format_args!("@group({group}) @binding({binding}) var<storage, read> field_{name}: array<{of}>;"),
+        );
     }
     source += "\n";
     let bases: BTreeSet<&str> = needs.octaves.iter().map(|(_, basis, _)| basis.wgsl()).collect();
@@ -346,8 +349,7 @@ impl Emitter<'_> {
         ));
         let flat = self.set(format_args!("image2({texel}, {image})"));
         let per_texel = if D == 2 { format!("{flat}.yz") } else { format!("vec3<f32>({flat}.yz, 0.0)") };
-        let scaled =
-            self.set(format_args!("{jet}({flat}.x, per_metre{D}({layer}, {per_texel})) * {}", at(2)));
+        let scaled = self.set(format_args!("{jet}({flat}.x, per_metre{D}({layer}, {per_texel})) * {}", at(2)));
         self.set(format_args!("{jet}({scaled}.x + {}, {scaled}.{g})", at(1)))
     }
 
@@ -356,10 +358,8 @@ impl Emitter<'_> {
         let at = |k: usize| format!("field_number({}u)", number + k);
         let rows = self.set(format_args!("u32({})", at(1)));
         let count = self.set(format_args!("u32({})", at(2)));
-        let weights = self.set(format_args!(
-            "triplanar_weights(anchor_at3(anchor_base + {rows}).fraction + {q}, u32({}))",
-            at(0)
-        ));
+        let weights = self
+            .set(format_args!("triplanar_weights(anchor_at3(anchor_base + {rows}).fraction + {q}, u32({}))", at(0)));
         let flat = ["yz", "xz", "xy"].map(|axes| axes);
         let [a, b, c]: [String; 3] = core::array::from_fn(|k| {
             let axes = flat[k];

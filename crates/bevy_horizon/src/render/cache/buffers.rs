@@ -152,11 +152,13 @@ impl FrameJobs {
         }
         let pyramid = tile_jobs(&work.pyramid);
         if !pyramid.is_empty() {
-            jobs.pyramid = Some((pyramid.len() as u32, storage("horizon_pyramid_jobs", bytemuck::cast_slice(&pyramid)), None));
+            jobs.pyramid =
+                Some((pyramid.len() as u32, storage("horizon_pyramid_jobs", bytemuck::cast_slice(&pyramid)), None));
         }
         let light = tile_jobs(&work.light);
         if let Some(sun) = sun.filter(|_| !light.is_empty()) {
-            let buffers = [storage("horizon_light_jobs", bytemuck::cast_slice(&light)), uniform("horizon_sun", &sun, device)];
+            let buffers =
+                [storage("horizon_light_jobs", bytemuck::cast_slice(&light)), uniform("horizon_sun", &sun, device)];
             jobs.light = Some((light.len() as u32, buffers, None));
         }
         jobs

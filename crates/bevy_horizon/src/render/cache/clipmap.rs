@@ -109,6 +109,9 @@ pub struct DrawnLevel {
     /// The centre's texel, modulo the side.
     pub base: [i32; 2],
     pub fraction: [f32; 2],
+    /// The cells that hold ground, relative to the centre's.
+    pub low: [i32; 2],
+    pub high: [i32; 2],
     pub slot: u32,
 }
 
@@ -195,10 +198,7 @@ impl Clipmap {
         for level in &mut self.levels {
             (level.centre, level.fraction) = texel_of(centre, level.exponent);
             let middle = level.centre.map(|c| (c + TILE / 2).div_euclid(TILE));
-            level.target = TileRect {
-                min: middle.map(|m| m - self.side / 2),
-                max: middle.map(|m| m + self.side / 2),
-            };
+            level.target = TileRect { min: middle.map(|m| m - self.side / 2), max: middle.map(|m| m + self.side / 2) };
             level.valid = level.valid.intersection(&level.target);
         }
     }
@@ -226,8 +226,7 @@ impl Clipmap {
         }
         for i in (0..self.levels.len()).rev() {
             let level = &self.levels[i];
-            let stale: Vec<_> =
-                level.valid.tiles().filter(|tile| level.stale[self.stored_in_level(*tile)]).collect();
+            let stale: Vec<_> = level.valid.tiles().filter(|tile| level.stale[self.stored_in_level(*tile)]).collect();
             for index in stale {
                 if work.fill.len() >= budget {
                     break;
@@ -238,7 +237,8 @@ impl Clipmap {
         for tile in &work.fill {
             for [dx, dz] in [[0, 0], [-1, 0], [0, -1], [-1, -1]] {
                 let neighbour = Tile { exponent: tile.exponent, index: [tile.index[0] + dx, tile.index[1] + dz] };
-                let valid = self.levels.iter().any(|l| l.exponent == tile.exponent && l.valid.contains(neighbour.index));
+                let valid =
+                    self.levels.iter().any(|l| l.exponent == tile.exponent && l.valid.contains(neighbour.index));
                 if valid && !work.pyramid.contains(&neighbour) {
                     work.pyramid.push(neighbour);
                 }
@@ -278,8 +278,8 @@ impl Clipmap {
             } else {
                 // The side that stands nearest to the centre, of those that may still move.
                 let (mut best, mut grown) = (i64::MAX, valid);
-                for axis in 0..2 {
-                    let at = centre[axis].div_euclid(TILE);
+                for (axis, centre) in centre.iter().enumerate() {
+                    let at = centre.div_euclid(TILE);
                     if valid.min[axis] > target.min[axis] && at - valid.min[axis] < best {
                         best = at - valid.min[axis];
                         grown = valid;
@@ -302,9 +302,7 @@ impl Clipmap {
 
     /// Tiles that hold ground that is up to date, and tiles that should.
     pub fn progress(&self) -> (usize, usize) {
-        let done = |level: &Level| {
-            level.valid.tiles().filter(|tile| !level.stale[self.stored_in_level(*tile)]).count()
-        };
+        let done = |level: &Level| level.valid.tiles().filter(|tile| !level.stale[self.stored_in_level(*tile)]).count();
         (self.levels.iter().map(done).sum(), self.levels.iter().map(|level| level.target.area()).sum())
     }
 
@@ -338,6 +336,8 @@ impl Clipmap {
                 outer,
                 base: level.centre.map(|c| c.rem_euclid(side) as i32),
                 fraction: level.fraction.map(|f| f as f32),
+                low: core::array::from_fn(|i| (level.valid.min[i] * TILE - level.centre[i]) as i32),
+                high: core::array::from_fn(|i| (level.valid.max[i] * TILE - level.centre[i]) as i32),
                 slot: self.slot(level.exponent),
             });
         }

@@ -36,6 +36,13 @@ fn disc_above(x: f32) -> f32 {
     return 0.5 - (c * sqrt(1.0 - c * c) + asin(c)) / 3.14159265;
 }
 
+// The height of a level at a point, in its texels.
+fn level_height(l: Level, at: vec2<f32>) -> f32 {
+    let cell = clamp(vec2<i32>(floor(at)), l.low, l.high - vec2<i32>(2));
+    let f = at - vec2<f32>(cell);
+    return bilinear(stored_corners(l, cell), f.x, f.y);
+}
+
 // The tangent of the ground's elevation towards the sun, between the disc's edges.
 fn horizon(start_level: u32, start: vec2<i32>) -> f32 {
     var level = start_level;
@@ -43,7 +50,7 @@ fn horizon(start_level: u32, start: vec2<i32>) -> f32 {
     var cell = start;
     let centre = (vec2<f32>(start) - l.fraction) * l.texel;
     var origin = vec2<f32>(start);
-    let h0 = stored_height(l, start);
+    var h0 = stored_height(l, start);
     let positive = sun.towards >= vec2<f32>(0.0);
     let inverse = select(1.0 / sun.towards, vec2<f32>(1e30), abs(sun.towards) < vec2<f32>(1e-20));
     var found = sun.low;
@@ -76,22 +83,29 @@ fn horizon(start_level: u32, start: vec2<i32>) -> f32 {
             }
         }
         d = d_exit;
-        let p = centre + sun.towards * d;
-        if (max(abs(p.x), abs(p.y)) * l.per_metre >= l.outer) {
-            level += 1u;
-            if (level >= clipmap.count) {
-                break;
-            }
-            l = clipmap.levels[level];
-            origin = centre * l.per_metre + l.fraction;
-            cell = vec2<i32>(floor(p * l.per_metre + l.fraction));
-            mip = max(mip, 1u) - 1u;
-            continue;
-        }
         let last = l.base + cell;
         cell = clamp(vec2<i32>(floor(origin + sun.towards * l.per_metre * d)), low, high - vec2<i32>(1));
         let side = select(low - vec2<i32>(1), high, positive);
         cell = select(vec2<i32>(cell.x, side.y), vec2<i32>(side.x, cell.y), exits.x <= exits.y);
+        // Past the last patch: the next level. Where the two differ, the point is taken along, or ground that the coarser
+        // level has a little higher would shadow it.
+        if (any(cell < l.low) || any(cell >= l.high - vec2<i32>(1 << mip))) {
+            level += 1u;
+            if (level >= clipmap.count) {
+                break;
+            }
+            let p = centre + sun.towards * d;
+            h0 -= level_height(l, p * l.per_metre + l.fraction);
+            l = clipmap.levels[level];
+            origin = centre * l.per_metre + l.fraction;
+            h0 += level_height(l, p * l.per_metre + l.fraction);
+            cell = vec2<i32>(floor(p * l.per_metre + l.fraction));
+            if (any(cell < l.low) || any(cell >= l.high - vec2<i32>(1))) {
+                break;
+            }
+            mip = 0u;
+            continue;
+        }
         let up = vec2<u32>(mip + 1u);
         if (mip < TILE_BITS && any(((l.base + cell) >> up) != (last >> up))) {
             mip += 1u;

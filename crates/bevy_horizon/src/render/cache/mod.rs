@@ -73,7 +73,14 @@ struct Demand {
 const NOMINAL_FOV: f32 = 60.0;
 
 impl Demand {
-    fn new(camera: &ExtractedHorizonCamera, height_px: u32, pixel: f32, altitude: f64, fields: &TerrainFields, share: u32) -> Self {
+    fn new(
+        camera: &ExtractedHorizonCamera,
+        height_px: u32,
+        pixel: f32,
+        altitude: f64,
+        fields: &TerrainFields,
+        share: u32,
+    ) -> Self {
         // At the inner side of a level's ring, (outer · inner part) / 2 texels from the centre, a texel may be as large as
         // twice the budget in pixels: its bow and the octaves left out are a fraction of it.
         let budget = camera.camera.error_budget.clamp(0.1, 16.0);
@@ -82,7 +89,8 @@ impl Demand {
         let even_tiles = |texels: f32| ((texels / (2 * TILE) as f32).ceil() as u32 * 2).max(4);
         let mut side = even_tiles(texels);
         // A level too coarse for the field's finest wave holds nothing that a finer one would show better.
-        let detail = (fields.height.finest_wavelength() / 16.0).log2().floor().clamp(FINEST.into(), COARSEST.into()) as i32;
+        let detail =
+            (fields.height.finest_wavelength() / 16.0).log2().floor().clamp(FINEST.into(), COARSEST.into()) as i32;
         let far = camera.camera.far.clamp(1.0, 1e6);
         loop {
             let reach = (side as i64 * TILE / 2 - 34) as f32;
@@ -143,7 +151,8 @@ pub fn prepare_caches(
         let eye = world.origin.translated(from.to_array().map(f64::from));
         let cache = terrain.map(|terrain| {
             let height_px = extracted.physical_viewport_size.map_or(1, |size| size.y);
-            let altitude = (eye.cell[1] as f64 * horizon_field::CELL + eye.offset[1] - ground_height(terrain, &eye)).abs();
+            let altitude =
+                (eye.cell[1] as f64 * horizon_field::CELL + eye.offset[1] - ground_height(terrain, &eye)).abs();
             let demand = Demand::new(camera, height_px, pixel_size(view, height_px), altitude, &terrain.fields, share);
             let index = find_cache(caches, terrain, &eye, &demand).unwrap_or_else(|| {
                 caches.push(Cache::new(terrain, &demand, &device));
@@ -286,7 +295,12 @@ impl Cache {
 }
 
 /// The compute passes of all caches, before any camera draws.
-pub fn fill_caches(caches: Res<Caches>, pipelines: Res<CachePipelines>, pipeline_cache: Res<PipelineCache>, mut ctx: RenderContext) {
+pub fn fill_caches(
+    caches: Res<Caches>,
+    pipelines: Res<CachePipelines>,
+    pipeline_cache: Res<PipelineCache>,
+    mut ctx: RenderContext,
+) {
     for cache in caches.0.iter().filter(|cache| cache.used) {
         cache.jobs.dispatch(&pipelines, cache.structure, &pipeline_cache, &mut ctx);
     }

@@ -7,8 +7,8 @@ use bevy::render::render_resource::binding_types::{
     storage_buffer_read_only_sized, storage_buffer_sized, uniform_buffer,
 };
 use bevy::render::render_resource::{
-    BindGroupLayoutDescriptor, BindGroupLayoutEntries, CachedComputePipelineId, ComputePipeline, ComputePipelineDescriptor,
-    PipelineCache, ShaderStages,
+    BindGroupLayoutDescriptor, BindGroupLayoutEntries, CachedComputePipelineId, ComputePipeline,
+    ComputePipelineDescriptor, PipelineCache, ShaderStages,
 };
 use bevy::shader::Shader;
 
@@ -76,7 +76,10 @@ impl Default for CachePipelines {
 impl CachePipelines {
     /// Asks for what a terrain needs.
     pub fn queue(&mut self, cache: &PipelineCache, terrain: &ExtractedTerrain) {
-        let compute = |label: &'static str, layout: Vec<BindGroupLayoutDescriptor>, shader: Handle<Shader>, entry: &'static str| {
+        let compute = |label: &'static str,
+                       layout: Vec<BindGroupLayoutDescriptor>,
+                       shader: Handle<Shader>,
+                       entry: &'static str| {
             cache.queue_compute_pipeline(ComputePipelineDescriptor {
                 label: Some(label.into()),
                 layout,

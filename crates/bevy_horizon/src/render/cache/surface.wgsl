@@ -15,6 +15,9 @@ struct Level {
     // The centre's texel, modulo n; where in it the centre lies.
     base: vec2<i32>,
     fraction: vec2<f32>,
+    // The cells that hold ground: from low up to high, without it.
+    low: vec2<i32>,
+    high: vec2<i32>,
     // Where in the buffers the level is stored.
     @size(16) slot: u32,
 }

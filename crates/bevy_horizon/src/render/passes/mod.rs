@@ -5,16 +5,18 @@ mod geometry;
 mod pipelines;
 mod sky;
 
+use bevy::app::SubApp;
 use bevy::core_pipeline::Core3d;
 use bevy::core_pipeline::core_3d::{main_opaque_pass_3d, main_transparent_pass_3d};
 use bevy::core_pipeline::schedule::Core3dSystems;
-use bevy::pbr::screen_space_reflections;
 use bevy::core_pipeline::tonemapping::{Tonemapping, TonemappingLuts, get_lut_bindings};
-use bevy::app::SubApp;
+use bevy::pbr::screen_space_reflections;
 use bevy::prelude::*;
 use bevy::render::camera::ExtractedCamera;
 use bevy::render::render_asset::RenderAssets;
-use bevy::render::render_resource::{BindGroup, BindGroupEntry, CachedRenderPipelineId, DynamicBindGroupEntries, PipelineCache, TextureUsages};
+use bevy::render::render_resource::{
+    BindGroup, BindGroupEntry, CachedRenderPipelineId, DynamicBindGroupEntries, PipelineCache, TextureUsages,
+};
 use bevy::render::renderer::RenderDevice;
 use bevy::render::texture::{FallbackImage, GpuImage};
 use bevy::render::view::{ExtractedView, ViewDepthTexture, ViewUniforms};
@@ -92,8 +94,17 @@ pub fn prepare_pipelines(
     }
 }
 
-type BindViews<'w, 's> =
-    Query<'w, 's, (&'static mut ViewPasses, &'static ViewGround, &'static ViewDepthTexture, Option<&'static Tonemapping>, &'static Msaa)>;
+type BindViews<'w, 's> = Query<
+    'w,
+    's,
+    (
+        &'static mut ViewPasses,
+        &'static ViewGround,
+        &'static ViewDepthTexture,
+        Option<&'static Tonemapping>,
+        &'static Msaa,
+    ),
+>;
 
 /// Bevy's tonemapping, for LDR views.
 #[derive(bevy::ecs::system::SystemParam)]
@@ -114,7 +125,9 @@ pub fn prepare_bind_groups(
     tonemappers: Tonemappers,
 ) {
     for (mut passes, ground, depth, tonemapping, msaa) in &mut views {
-        let (Some(view), Some(bevy_view)) = (uniforms.views.binding(), tonemappers.views.uniforms.binding()) else { continue };
+        let (Some(view), Some(bevy_view)) = (uniforms.views.binding(), tonemappers.views.uniforms.binding()) else {
+            continue;
+        };
         let ldr = passes.ldr;
         let lut = get_lut_bindings(
             &tonemappers.images,
@@ -125,7 +138,8 @@ pub fn prepare_bind_groups(
         let create = |pass: Pass, entries: &[BindGroupEntry]| {
             let mut entries = entries.to_vec();
             if ldr {
-                let tonemapping = DynamicBindGroupEntries::new_with_indices(((10, bevy_view.clone()), (11, lut.0), (12, lut.1)));
+                let tonemapping =
+                    DynamicBindGroupEntries::new_with_indices(((10, bevy_view.clone()), (11, lut.0), (12, lut.1)));
                 entries.extend_from_slice(&tonemapping);
             }
             let layout = pipeline_cache.get_bind_group_layout(pipelines.layout(pass, ldr, msaa.samples() > 1));
@@ -150,8 +164,10 @@ pub fn prepare_bind_groups(
         if ground.sky.is_some()
             && let Some(sky) = uniforms.skies.binding()
         {
-            passes.groups[1] =
-                Some(create(Pass::Sky, &DynamicBindGroupEntries::new_with_indices(((0, view), (1, sky), (2, depth.view())))));
+            passes.groups[1] = Some(create(
+                Pass::Sky,
+                &DynamicBindGroupEntries::new_with_indices(((0, view), (1, sky), (2, depth.view()))),
+            ));
         }
     }
 }

@@ -8,7 +8,7 @@ use bevy::render::render_resource::binding_types::{
     storage_buffer_read_only_sized, texture_depth_2d, texture_depth_2d_multisampled, uniform_buffer,
 };
 use bevy::render::render_resource::{
-    BindGroupLayoutDescriptor, BlendComponent, BlendState, BlendFactor, BlendOperation, CachedRenderPipelineId,
+    BindGroupLayoutDescriptor, BlendComponent, BlendFactor, BlendOperation, BlendState, CachedRenderPipelineId,
     ColorTargetState, ColorWrites, CompareFunction, DepthStencilState, DynamicBindGroupLayoutEntries, FragmentState,
     MultisampleState, PipelineCache, RenderPipelineDescriptor, ShaderStages, TextureFormat, VertexState,
 };
@@ -79,7 +79,8 @@ fn new_layout(pass: Pass, ldr: bool, multisampled: bool) -> BindGroupLayoutDescr
     };
     if ldr {
         let [texture, sampler] = get_lut_bind_group_layout_entries();
-        entries = entries.extend_with_indices(((10, uniform_buffer::<ViewUniform>(true)), (11, texture), (12, sampler)));
+        entries =
+            entries.extend_with_indices(((10, uniform_buffer::<ViewUniform>(true)), (11, texture), (12, sampler)));
     }
     BindGroupLayoutDescriptor::new("horizon_pass", &entries)
 }
