@@ -6,4 +6,5 @@ mod engine;
 mod first;
 mod golden;
 mod march;
+mod stability;
 mod stage;

@@ -108,7 +108,7 @@ fn follow(
     **camera = path.pose(flight.metres, flight.speed);
 }
 
-/// Exposes as a light meter in the sun would: EV = log₂(E / 2.5 lx). Two stops more, because the tone curve darkens.
+/// Exposes as a light meter in the sun would: EV = log₂(E / 2.5 lx). Nearly two stops more, because the tone curve darkens.
 fn meter(
     mut commands: Commands,
     suns: Query<(&DirectionalLight, &Transform), Added<WorldSun>>,
@@ -118,7 +118,7 @@ fn meter(
     for (light, transform) in &suns {
         let level = light.illuminance * light.color.luminance() * transform.back().y.max(0.35);
         let illuminance = level + std::f32::consts::PI * ambient.brightness;
-        commands.entity(*camera).insert(Exposure { ev100: (illuminance / 2.5).log2() - 2.0 });
+        commands.entity(*camera).insert(Exposure { ev100: (illuminance / 2.5).log2() - 1.75 });
     }
 }
 
