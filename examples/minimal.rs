@@ -15,7 +15,7 @@ fn setup(mut commands: Commands) {
     commands.insert_resource(GlobalAmbientLight { brightness: 5_000.0, ..default() });
     commands.spawn((
         Camera3d::default(),
-        Exposure { ev100: 14.0 },
+        Exposure { ev100: 13.0 },
         HorizonCamera::default(),
         Transform::from_xyz(0.0, 600.0, 0.0).looking_to(Vec3::new(0.0, -0.2, -1.0), Vec3::Y),
     ));

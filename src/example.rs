@@ -89,9 +89,14 @@ fn end(
     let program = std::env::args().next().unwrap_or_default();
     let name = std::path::Path::new(&program).file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let path = std::path::absolute(format!("target/{name}.png")).expect("there is a current directory");
+    if let Err(error) = std::fs::create_dir_all("target") {
+        error!("target: {error}");
+    }
     commands.spawn(Screenshot::image(target.0.clone())).observe(save_to_disk(path.clone())).observe(
         move |_: On<ScreenshotCaptured>, mut exit: MessageWriter<AppExit>| {
-            println!("There is no display. The picture is in {}", path.display());
+            if path.is_file() {
+                println!("There is no display. The picture is in {}", path.display());
+            }
             exit.write(AppExit::Success);
         },
     );

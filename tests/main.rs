@@ -2,9 +2,14 @@
 
 mod anchoring;
 mod compose;
+mod device;
 mod engine;
 mod first;
 mod golden;
 mod march;
+mod parity;
+mod queries;
+mod shaders;
 mod stability;
 mod stage;
+mod worlds;

@@ -55,13 +55,14 @@ fn curvature_is_continuous_at_lattice_lines() {
         let f = |x: f64| if x < 1.0 { s(x) } else { 1.0 - s(x - 1.0) };
         let h = 1e-4;
         let second = |x: f64| (f(x + h) - 2.0 * f(x) + f(x - h)) / (h * h);
-        (second(1.0 + 2.0 * h) - second(1.0 - 2.0 * h)).abs()
-            + (second(2.0 * h) - 0.0).abs()
+        (second(1.0 + 2.0 * h) - second(1.0 - 2.0 * h)).abs() + (second(2.0 * h) - 0.0).abs()
     };
     assert!(jump(&cubic) > 5.0, "the cubic must jump");
     assert!(jump(&quintic) < 0.1);
     // And so does the field's own gradient: its second derivative across a lattice line.
-    let noise = Field::Noise(Noise { wavelength: 100.0, amplitude: 100.0, seed: 2, ..default() }).compile::<2>(&NoImages).unwrap();
+    let noise = Field::Noise(Noise { wavelength: 100.0, amplitude: 100.0, seed: 2, ..default() })
+        .compile::<2>(&NoImages)
+        .unwrap();
     let at = noise.anchor(&Place::ORIGIN);
     let g = |x: f64| noise.jet(&at, [x, 31.0], 0.0).g[0];
     let h = 1e-3;
@@ -80,15 +81,17 @@ fn normals_come_from_summed_gradients() {
     let normal = |g: [f64; 2]| Vec3::new(-g[0] as f32, 1.0, -g[1] as f32).normalize();
     let h = 1e-4;
     let value = |q: [f64; 2]| whole.value(&whole.anchor(&place), q, 0.0);
-    let truth = normal([
-        (value([h, 0.0]) - value([-h, 0.0])) / (2.0 * h),
-        (value([0.0, h]) - value([0.0, -h])) / (2.0 * h),
-    ]);
+    let truth =
+        normal([(value([h, 0.0]) - value([-h, 0.0])) / (2.0 * h), (value([0.0, h]) - value([0.0, -h])) / (2.0 * h)]);
     // Each octave's own gradient is the difference between sums.
     let gradients: Vec<[f64; 2]> = layers.iter().map(|f| f.jet(&f.anchor(&place), [0.0, 0.0], 0.0).g).collect();
     let own = |i: usize| if i == 0 { gradients[0] } else { [0, 1].map(|k| gradients[i][k] - gradients[i - 1][k]) };
     let naive = (0..3).map(|i| normal(own(i))).sum::<Vec3>().normalize();
-    println!("naive {:.3}°, ours {:.5}°", naive.angle_between(truth).to_degrees(), normal(g).angle_between(truth).to_degrees());
+    println!(
+        "naive {:.3}°, ours {:.5}°",
+        naive.angle_between(truth).to_degrees(),
+        normal(g).angle_between(truth).to_degrees()
+    );
     assert!(naive.angle_between(truth) > 0.05, "the sum of normals must be off");
     assert!(normal(g).angle_between(truth) < 1e-3);
 }
@@ -106,7 +109,9 @@ fn height_steps_leap_through_steep_ground() {
         let start = [f64::from(i) * 13.0, f64::from(i) * -7.0];
         let origin = [start[0], surface.jet(start).v + 3.0, start[1]];
         let ray = Ray::new(origin, [angle.cos(), -0.004, angle.sin()]).unwrap();
-        let Cast::Hit(hit) = cast(&surface, &ray, 400.0, Tolerance::default(), &mut Counts::default()) else { continue };
+        let Cast::Hit(hit) = cast(&surface, &ray, 400.0, Tolerance::default(), &mut Counts::default()) else {
+            continue;
+        };
         // s = a + b d + c height, with seed 000's a = 5 and c = 2.
         let mut t = 0.0;
         let naive = loop {
@@ -186,7 +191,8 @@ fn penumbra(radius: f32) -> f32 {
         png.into_inner()
     };
     let mut terrain = Terrain::new(ramp);
-    terrain.images = [("step".to_string(), horizon_field::field::HeightImage::from_png(&png).unwrap())].into_iter().collect();
+    terrain.images =
+        [("step".to_string(), horizon_field::field::HeightImage::from_png(&png).unwrap())].into_iter().collect();
     let (_, picture) = shown(|stage| {
         let sun = Sun { azimuth: -std::f32::consts::FRAC_PI_2, elevation: 0.25, ..default() };
         stage.world().spawn((DirectionalLight { illuminance: 1e5, ..default() }, sun.transform()));
@@ -233,8 +239,11 @@ fn grass_is_flat_and_shadow_is_lit_by_the_sky() {
         let mut png = std::io::Cursor::new(Vec::new());
         let image = image::ImageBuffer::<image::Luma<u16>, _>::from_fn(256, 4, |x, _| image::Luma([x as u16 * 257]));
         image::DynamicImage::ImageLuma16(image).write_to(&mut png, image::ImageFormat::Png).unwrap();
-        let mut terrain =
-            Terrain::new(Field::Remap(Remap { field: tilted.into(), from: [0.0, 1.0], to: [100.0 - 32768.0 * slope, 101.0 - 32768.0 * slope] }));
+        let mut terrain = Terrain::new(Field::Remap(Remap {
+            field: tilted.into(),
+            from: [0.0, 1.0],
+            to: [100.0 - 32768.0 * slope, 101.0 - 32768.0 * slope],
+        }));
         let height = horizon_field::field::HeightImage::from_png(png.get_ref()).unwrap();
         terrain.images = [("ramp".to_string(), height)].into_iter().collect();
         terrain.material.edge.amplitude = 0.0;

@@ -60,7 +60,8 @@ impl Path {
     /// The camera after this many metres, banked for this speed.
     pub fn pose(&self, metres: f32, speed: f32) -> Transform {
         let here = self.at(metres);
-        let ahead = (self.at(metres + LOOK_AHEAD) - here).normalize_or(Vec3::NEG_Z);
+        // Half the climb, so that the horizon stays in sight.
+        let ahead = ((self.at(metres + LOOK_AHEAD) - here) * Vec3::new(1.0, 0.5, 1.0)).normalize_or(Vec3::NEG_Z);
         let mut pose = Transform::from_translation(here).looking_to(ahead, Vec3::Y);
         pose.rotate_local_x(self.pitch);
         // A coordinated turn banks by atan(v² κ / g); a sixth of it is enough for the eye.

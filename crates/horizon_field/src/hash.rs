@@ -4,6 +4,9 @@
 //! One axis is hashed by both words of its coordinate, then the axes are mixed: corners of one cell share their axes'
 //! hashes, which is what makes the hash cheap.
 
+/// The WGSL twin.
+pub const WGSL: &str = include_str!("hash.wgsl");
+
 /// PCG-RXS-M-XS-32, after O'Neill 2014 and Jarzynski & Olano 2020: a permutation of the 32-bit words.
 #[inline(always)]
 pub const fn pcg(v: u32) -> u32 {

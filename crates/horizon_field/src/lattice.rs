@@ -5,6 +5,9 @@
 use crate::place::{CELL, Place};
 use crate::real::Real;
 
+/// The WGSL twin.
+pub const WGSL: &str = include_str!("lattice.wgsl");
+
 /// A lattice in `D` dimensions: 2 for the plane (x, z), 3 for space (x, y, z).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layer<const D: usize> {

@@ -87,7 +87,7 @@ impl NoiseLayer {
             wavelength: f64::from(self.wavelength),
             amplitude: f64::from(self.amplitude),
             octaves: f64::from(self.octaves),
-            gain: 0.55,
+            gain: 0.6,
             seed: self.seed,
             ..default()
         })
@@ -110,7 +110,7 @@ impl Default for TerrainMaterial {
             snow_flatness: 0.7,
             strata_thickness: 14.0,
             edge: NoiseLayer::default(),
-            tint: NoiseLayer { wavelength: 90.0, amplitude: 0.9, octaves: 6.0, seed: 12 },
+            tint: NoiseLayer { wavelength: 90.0, amplitude: 0.9, octaves: 9.0, seed: 12 },
         }
     }
 }

@@ -10,9 +10,8 @@ use super::tree::{FractalNode, Node, Tree};
 use super::{compile, image};
 use crate::fractal::{self, Rule};
 use crate::noise::Basis;
+use crate::{hash, lattice};
 
-const LATTICE: &str = include_str!("../lattice.wgsl");
-const HASH: &str = include_str!("../hash.wgsl");
 const WALK: &str = include_str!("walk.wgsl");
 const TRIPLANAR: &str = include_str!("triplanar.wgsl");
 
@@ -71,7 +70,7 @@ pub fn module<const D: usize>(group: u32, fields: &[(&str, &Compiled<D>)]) -> Ke
     }
     source += "\n";
     let bases: BTreeSet<&str> = needs.octaves.iter().map(|(_, basis, _)| basis.wgsl()).collect();
-    let library = [LATTICE, HASH, WALK]
+    let library = [lattice::WGSL, hash::WGSL, WALK]
         .into_iter()
         .chain(bases)
         .chain((!needs.octaves.is_empty()).then_some(fractal::WGSL))

@@ -70,90 +70,121 @@ fn enters_finer(ray: Ray, inverse: vec2<f32>, level: u32) -> f32 {
     return select(enters_square(ray, inverse, finer.outer * finer.texel), 1e30, finer.outer <= 0.0);
 }
 
-fn march(ray: Ray, t_start: f32, t_far: f32) -> Found {
-    var t = t_start;
-    var p = (ray.origin + ray.direction * t).xz;
-    var level = level_at(p);
+// Where a ray is on its way: in which level, and which node of its pyramid.
+struct Walk {
+    t: f32,
+    level: u32,
+    mip: u32,
+    cell: vec2<i32>,
+    steps: u32,
+    // What depends on the level alone: the level, the ray in its texels, and when the ray enters the next finer one.
+    l: Level,
+    origin: vec2<f32>,
+    d: vec2<f32>,
+    enters: f32,
+}
+
+// A node: its cells, and when the ray leaves it, through which side, and whether into a finer level.
+struct Node {
+    low: vec2<i32>,
+    high: vec2<i32>,
+    t_exit: f32,
+    through_x: bool,
+    finer: bool,
+}
+
+fn enter_level(walk: ptr<function, Walk>, ray: Ray, inverse: vec2<f32>, level: u32) {
+    (*walk).level = level;
     if (level >= clipmap.count) {
-        return Found(-1.0, 0u, vec2<i32>(0), 0u);
+        return;
     }
-    var mip = TOP_MIP;
-    let direction = ray.direction.xz;
-    let positive = direction >= vec2<f32>(0.0);
-    // A direction that is all but level with an axis never crosses that axis' lines.
-    let inverse = select(1.0 / direction, vec2<f32>(1e30), abs(direction) < vec2<f32>(1e-20));
+    let l = clipmap.levels[level];
+    (*walk).l = l;
+    (*walk).origin = ray.origin.xz * l.per_metre + l.fraction;
+    (*walk).d = ray.direction.xz * l.per_metre;
+    (*walk).enters = enters_finer(ray, inverse, level);
+    (*walk).cell = vec2<i32>(floor((*walk).origin + (*walk).d * (*walk).t));
+}
 
-    // What depends on the level alone.
-    var l = clipmap.levels[level];
-    var enters = enters_finer(ray, inverse, level);
-    var origin = ray.origin.xz * l.per_metre + l.fraction;
-    var d = direction * l.per_metre;
-    var cell = vec2<i32>(floor(origin + d * t));
+fn node_of(walk: Walk, inverse: vec2<f32>, positive: vec2<bool>) -> Node {
+    let low = (((walk.l.base + walk.cell) >> vec2<u32>(walk.mip)) << vec2<u32>(walk.mip)) - walk.l.base;
+    let high = low + vec2<i32>(1 << walk.mip);
+    let exits = (select(vec2<f32>(low), vec2<f32>(high), positive) - walk.origin) * inverse * walk.l.texel;
+    let t_exit = max(min(exits.x, exits.y), walk.t);
+    let finer = walk.enters > walk.t && walk.enters < t_exit;
+    return Node(low, high, select(t_exit, walk.enters, finer), exits.x <= exits.y, finer);
+}
 
-    for (var step = 0u; step < MARCH_STEPS; step++) {
-        // The node, and when the ray leaves it.
-        let low = (((l.base + cell) >> vec2<u32>(mip)) << vec2<u32>(mip)) - l.base;
-        let high = low + vec2<i32>(1 << mip);
-        let exits = (select(vec2<f32>(low), vec2<f32>(high), positive) - origin) * inverse * l.texel;
-        var t_exit = max(min(exits.x, exits.y), t);
-        let finer = enters > t && enters < t_exit;
-        t_exit = select(t_exit, enters, finer);
+// On to the neighbour, named exactly by the side that the ray leaves through: no patch is skipped by rounding.
+fn leave(walk: ptr<function, Walk>, ray: Ray, node: Node, inverse: vec2<f32>, positive: vec2<bool>) {
+    (*walk).t = node.t_exit;
+    let p = (ray.origin + ray.direction * node.t_exit).xz;
+    let outside = max(abs(p.x), abs(p.y)) * (*walk).l.per_metre >= (*walk).l.outer;
+    if (node.finer || outside) {
+        (*walk).mip = select(max((*walk).mip, 1u) - 1u, min((*walk).mip + 1u, TOP_MIP), node.finer);
+        enter_level(walk, ray, inverse, select((*walk).level + 1u, (*walk).level - 1u, node.finer));
+        return;
+    }
+    let base = (*walk).l.base;
+    let last = base + (*walk).cell;
+    let along = clamp(vec2<i32>(floor((*walk).origin + (*walk).d * node.t_exit)), node.low, node.high - vec2<i32>(1));
+    let side = select(node.low - vec2<i32>(1), node.high, positive);
+    let cell = select(vec2<i32>(along.x, side.y), vec2<i32>(side.x, along.y), node.through_x);
+    let up = vec2<u32>((*walk).mip + 1u);
+    let climbs = (*walk).mip < TOP_MIP && any(((base + cell) >> up) != (last >> up));
+    (*walk).cell = cell;
+    (*walk).mip += select(0u, 1u, climbs);
+}
 
-        if (mip == 0u) {
-            let h = corners(l, level, cell);
-            let at = origin - vec2<f32>(cell) + d * t;
-            let a = h.y - h.x;
-            let b = h.z - h.x;
-            let c = h.w - h.y - b;
-            let q0 = ray.origin.y + ray.direction.y * t - (h.x + a * at.x + b * at.y + c * at.x * at.y);
-            let q1 = ray.direction.y - (a * d.x + b * d.y + c * (at.x * d.y + at.y * d.x));
-            let q2 = -c * d.x * d.y;
-            let s = first_root(q0, q1, q2, t_exit - t);
-            if (s >= 0.0) {
-                return Found(select(-1.0, t + s, t + s <= t_far), level, cell, step);
-            }
-        } else {
-            let highest = node_bounds(l, level, cell, low, mip).y;
-            let y = ray.origin.y + ray.direction.y * t;
-            if (min(y, ray.origin.y + ray.direction.y * t_exit) <= highest) {
-                // Not before the ray has fallen to the node's highest point.
-                if (y > highest) {
-                    t = clamp((highest - ray.origin.y) / ray.direction.y, t, t_exit);
-                }
-                mip -= 1u;
-                cell = clamp(vec2<i32>(floor(origin + d * t)), low, high - vec2<i32>(1));
-                continue;
-            }
-        }
-
-        // On to the neighbour, named exactly by the side that the ray leaves through: no patch is skipped by rounding.
-        t = t_exit;
-        if (t > t_far) {
-            break;
-        }
-        p = (ray.origin + ray.direction * t).xz;
-        let outside = max(abs(p.x), abs(p.y)) * l.per_metre >= l.outer;
-        if (finer || outside) {
-            level = select(level + 1u, level - 1u, finer);
-            if (level >= clipmap.count) {
-                break;
-            }
-            l = clipmap.levels[level];
-            enters = enters_finer(ray, inverse, level);
-            origin = ray.origin.xz * l.per_metre + l.fraction;
-            d = direction * l.per_metre;
-            cell = vec2<i32>(floor(origin + d * t));
-            mip = select(max(mip, 1u) - 1u, min(mip + 1u, TOP_MIP), finer);
+// Down the pyramid: until the ray stands before a patch, or has left the world. Its own loop, so that the lanes of a
+// group solve their patches together (Aila & Laine 2009).
+fn descend(walk: ptr<function, Walk>, ray: Ray, inverse: vec2<f32>, positive: vec2<bool>, t_far: f32) {
+    while ((*walk).mip > 0u && (*walk).t <= t_far && (*walk).level < clipmap.count && (*walk).steps < MARCH_STEPS) {
+        (*walk).steps += 1u;
+        let node = node_of(*walk, inverse, positive);
+        let highest = node_bounds((*walk).l, (*walk).level, (*walk).cell, node.low, (*walk).mip).y;
+        let y = ray.origin.y + ray.direction.y * (*walk).t;
+        if (min(y, ray.origin.y + ray.direction.y * node.t_exit) > highest) {
+            leave(walk, ray, node, inverse, positive);
             continue;
         }
-        let last = l.base + cell;
-        cell = clamp(vec2<i32>(floor(origin + d * t)), low, high - vec2<i32>(1));
-        let side = select(low - vec2<i32>(1), high, positive);
-        cell = select(vec2<i32>(cell.x, side.y), vec2<i32>(side.x, cell.y), exits.x <= exits.y);
-        let up = vec2<u32>(mip + 1u);
-        if (mip < TOP_MIP && any(((l.base + cell) >> up) != (last >> up))) {
-            mip += 1u;
+        // Not before the ray has fallen to the node's highest point.
+        if (y > highest) {
+            (*walk).t = clamp((highest - ray.origin.y) / ray.direction.y, (*walk).t, node.t_exit);
         }
+        (*walk).mip -= 1u;
+        let at = vec2<i32>(floor((*walk).origin + (*walk).d * (*walk).t));
+        (*walk).cell = clamp(at, node.low, node.high - vec2<i32>(1));
     }
-    return Found(-1.0, 0u, vec2<i32>(0), MARCH_STEPS);
+}
+
+fn march(ray: Ray, t_start: f32, t_far: f32) -> Found {
+    let positive = ray.direction.xz >= vec2<f32>(0.0);
+    // A direction that is all but level with an axis never crosses that axis' lines.
+    let inverse = select(1.0 / ray.direction.xz, vec2<f32>(1e30), abs(ray.direction.xz) < vec2<f32>(1e-20));
+    var walk: Walk;
+    walk.t = t_start;
+    walk.mip = TOP_MIP;
+    enter_level(&walk, ray, inverse, level_at((ray.origin + ray.direction * t_start).xz));
+    while (walk.steps < MARCH_STEPS) {
+        descend(&walk, ray, inverse, positive, t_far);
+        if (walk.t > t_far || walk.level >= clipmap.count) {
+            break;
+        }
+        walk.steps += 1u;
+        let node = node_of(walk, inverse, positive);
+        let h = corners(walk.l, walk.level, walk.cell);
+        let at = walk.origin - vec2<f32>(walk.cell) + walk.d * walk.t;
+        let a = h.y - h.x;
+        let b = h.z - h.x;
+        let c = h.w - h.y - b;
+        let q0 = ray.origin.y + ray.direction.y * walk.t - (h.x + a * at.x + b * at.y + c * at.x * at.y);
+        let q1 = ray.direction.y - (a * walk.d.x + b * walk.d.y + c * (at.x * walk.d.y + at.y * walk.d.x));
+        let s = first_root(q0, q1, -c * walk.d.x * walk.d.y, node.t_exit - walk.t);
+        if (s >= 0.0) {
+            return Found(select(-1.0, walk.t + s, walk.t + s <= t_far), walk.level, walk.cell, walk.steps);
+        }
+        leave(&walk, ray, node, inverse, positive);
+    }
+    return Found(-1.0, 0u, vec2<i32>(0), walk.steps);
 }

@@ -39,6 +39,8 @@ fn material_at(anchor: u32, q: vec2<f32>, texel: f32, ground: vec3<f32>) -> vec4
     let shift = material_edge(anchor, q, texel).x;
     let tint = material_tint(anchor, q, texel).x;
     let h = ground.x + shift;
+    // A texel holds all the heights that its slope spans: boundaries are at least as soft as that.
+    let softness = material.softness + vec4<f32>(0.5 * texel * length(ground.yz));
 
     let strata = strata_noise((ground.x + 0.3 * shift) / material.strata_thickness);
     let steep = 1.0 - smoothstep(0.62, 0.88, up);
@@ -46,10 +48,10 @@ fn material_at(anchor: u32, q: vec2<f32>, texel: f32, ground: vec3<f32>) -> vec4
 
     let flat_enough = smoothstep(material.grass_flatness - 0.06, material.grass_flatness + 0.06, up + 0.04 * tint);
     let grass = mix(material.grass, material.dry_grass, smoothstep(-0.35, 0.35, tint));
-    var colour = mix(material.mud, material.sand, above(h, material.boundaries.x, material.softness.x));
-    colour = mix(colour, mix(rock, grass, flat_enough), above(h, material.boundaries.y, material.softness.y));
-    colour = mix(colour, rock, above(h, material.boundaries.z, material.softness.z));
-    let snow = above(h, material.boundaries.w, material.softness.w)
+    var colour = mix(material.mud, material.sand, above(h, material.boundaries.x, softness.x));
+    colour = mix(colour, mix(rock, grass, flat_enough), above(h, material.boundaries.y, softness.y));
+    colour = mix(colour, rock, above(h, material.boundaries.z, softness.z));
+    let snow = above(h, material.boundaries.w, softness.w)
         * smoothstep(material.snow_flatness - 0.08, material.snow_flatness + 0.08, up);
     colour = mix(colour, material.snow, snow);
     return vec4<f32>(sqrt(clamp(colour.rgb, vec3<f32>(0.0), vec3<f32>(1.0))), colour.a);

@@ -88,9 +88,11 @@ impl Demand {
         let texels = 2.0 * (1.0 / (0.8 * nominal * 2.0 * budget) + 34.0);
         let even_tiles = |texels: f32| ((texels / (2 * TILE) as f32).ceil() as u32 * 2).max(4);
         let mut side = even_tiles(texels);
-        // A level too coarse for the field's finest wave holds nothing that a finer one would show better.
-        let detail =
-            (fields.height.finest_wavelength() / 16.0).log2().floor().clamp(FINEST.into(), COARSEST.into()) as i32;
+        // Below an eighth of the field's finest wave, a patch is as smooth as what it stands for; a colour needs a quarter.
+        let finest = (fields.height.finest_wavelength() / 8.0)
+            .min(fields.edge.finest_wavelength() / 4.0)
+            .min(fields.tint.finest_wavelength() / 4.0);
+        let detail = finest.log2().floor().clamp(FINEST.into(), COARSEST.into()) as i32;
         let far = camera.camera.far.clamp(1.0, 1e6);
         loop {
             let reach = (side as i64 * TILE / 2 - 34) as f32;
