@@ -1,6 +1,6 @@
 //! The graphics device, as the tests use it: it runs a compute shader, and gives back what that wrote.
 
-use std::sync::{Arc, LazyLock};
+use std::sync::{Arc, LazyLock, Mutex, MutexGuard, PoisonError};
 
 use bevy::render::RenderApp;
 use bevy::render::render_resource::{
@@ -12,20 +12,32 @@ use bevy::render::render_resource::{
 use bevy::render::renderer::{RenderDevice, RenderQueue};
 use bevy_horizon_workspace::offscreen::{self, Offscreen};
 
-/// The device that Bevy chooses, once for all tests. Unlike Bevy, it does not go on after an error.
-static DEVICE: LazyLock<(RenderDevice, RenderQueue)> = LazyLock::new(|| {
-    let off = Offscreen::new(offscreen::plugins(), 8, 8);
-    let world = off.app.sub_app(RenderApp).world();
-    let (device, queue) = (world.resource::<RenderDevice>().clone(), world.resource::<RenderQueue>().clone());
-    device.wgpu_device().on_uncaptured_error(Arc::new(|error| panic!("{error}")));
-    (device, queue)
+type Device = (RenderDevice, RenderQueue);
+
+/// Two devices of the kind that Bevy chooses, for all tests: a software driver compiles a device's shaders one after the
+/// other. Unlike Bevy, they do not go on after an error.
+static DEVICES: LazyLock<[Mutex<Device>; 2]> = LazyLock::new(|| {
+    [(); 2].map(|()| {
+        let off = Offscreen::new(offscreen::plugins(), 8, 8);
+        let world = off.app.sub_app(RenderApp).world();
+        let device = world.resource::<RenderDevice>().clone();
+        device.wgpu_device().on_uncaptured_error(Arc::new(|error| panic!("{error}")));
+        Mutex::new((device, world.resource::<RenderQueue>().clone()))
+    })
 });
+
+/// A device that is free. One on which a test has failed still works.
+fn device() -> MutexGuard<'static, Device> {
+    let free = DEVICES.iter().find_map(|device| device.try_lock().ok());
+    free.unwrap_or_else(|| DEVICES[0].lock().unwrap_or_else(PoisonError::into_inner))
+}
 
 /// Runs the entry point `main` of a compute shader. `groups` are the contents of its read-only storage buffers, by group
 /// and binding; what comes back are the bytes of one more, writable buffer, of `output` bytes, which follows in the last
 /// group.
 pub fn run(source: &str, groups: &[&[&[u8]]], output: usize, workgroups: u32) -> Vec<u8> {
-    let (device, queue) = &*DEVICE;
+    let guard = device();
+    let (device, queue) = &*guard;
     let written = device.create_buffer(&BufferDescriptor {
         label: None,
         size: output as u64,

@@ -112,7 +112,7 @@ fn several_cameras_and_viewports_each_show_the_world() {
         Camera { order: 1, clear_color: ClearColorConfig::None, viewport: Some(half(160)), ..default() },
         bevy::camera::Hdr,
         Msaa::Off,
-        bevy::camera::Exposure { ev100: 14.5 },
+        bevy::camera::Exposure { ev100: 13.5 },
         bevy::core_pipeline::tonemapping::Tonemapping::AgX,
         Projection::Perspective(PerspectiveProjection { fov: crate::stage::FOV, ..default() }),
         HorizonCamera::default(),

@@ -67,8 +67,8 @@ impl Uses {
 
 /// Validates a shader with no capability beyond WebGPU's own, and translates it into the three languages.
 fn translate(name: &str, source: &str) -> Uses {
-    let module = naga::front::wgsl::parse_str(source)
-        .unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(source)));
+    let module =
+        naga::front::wgsl::parse_str(source).unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(source)));
     let info = Validator::new(ValidationFlags::all(), Capabilities::default())
         .validate(&module)
         .unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(source)));
@@ -152,11 +152,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #[test]
 fn the_world_is_drawn_within_webgpus_default_limits() {
     // Neither a limit nor a feature beyond what every WebGPU device has.
-    let settings = WgpuSettings {
-        priority: WgpuSettingsPriority::WebGPU,
-        features: WgpuFeatures::empty(),
-        ..default()
-    };
+    let settings =
+        WgpuSettings { priority: WgpuSettingsPriority::WebGPU, features: WgpuFeatures::empty(), ..default() };
     let render = RenderPlugin {
         render_creation: RenderCreation::Automatic(Box::new(settings)),
         synchronous_pipeline_compilation: true,

@@ -93,7 +93,7 @@ impl Stage {
             target,
             Hdr,
             Msaa::Off,
-            Exposure { ev100: 14.5 },
+            Exposure { ev100: 13.5 },
             Tonemapping::AgX,
             Projection::Perspective(PerspectiveProjection { fov: FOV, near: NEAR, ..default() }),
             HorizonCamera::default(),

@@ -174,10 +174,11 @@ fn bad_files_are_refused_with_field_and_line() {
 #[test]
 fn what_only_the_loader_sees_is_refused_too() {
     let directory = directory("loader");
-    let image = |path: &str| GOOD.replace("Fractal", "Image").replace("gain: 0.5", "").replace(
-        "wavelength: 1000.0",
-        &format!("path: \"{path}\""),
-    );
+    let image = |path: &str| {
+        GOOD.replace("Fractal", "Image")
+            .replace("gain: 0.5,", "")
+            .replace("wavelength: 1000.0", &format!("path: \"{path}\""))
+    };
     std::fs::write(directory.join("not_an_image.png"), b"a text").unwrap();
     let cases: [(&str, Vec<u8>, &[&str]); 5] = [
         ("missing_image.ron", image("nowhere.png").into(), &["nowhere.png"]),
@@ -186,7 +187,8 @@ fn what_only_the_loader_sees_is_refused_too() {
         ("cut_letter.ron", [GOOD.as_bytes(), b"// \xc3"].concat(), &["line 11"]),
         (
             "falling.ron",
-            GOOD.replace("    ),\n    sun", "        material: (boundaries: (5.0, 1.0, 2.0, 3.0)),\n    ),\n    sun").into(),
+            GOOD.replace("    ),\n    sun", "        material: (boundaries: (5.0, 1.0, 2.0, 3.0)),\n    ),\n    sun")
+                .into(),
             &["boundaries"],
         ),
     ];

@@ -74,6 +74,7 @@ impl Plugin for HorizonWorldPlugin {
             .register_type::<world::Terrain>()
             .register_type::<world::Atmosphere>()
             .add_message::<world::TerrainRejected>()
-            .add_systems(PostUpdate, world::compile_terrain.in_set(HorizonSystems::Compile));
+            .add_systems(PostUpdate, world::compile_terrain.in_set(HorizonSystems::Compile))
+            .add_observer(world::forget_terrain);
     }
 }

@@ -4,10 +4,11 @@
 use std::collections::BTreeMap;
 
 use bevy::asset::io::Reader;
-use bevy::asset::{AssetLoadFailedEvent, AssetLoader, LoadContext};
+use bevy::asset::{AssetLoadError, AssetLoadFailedEvent, AssetLoader, LoadContext};
 use bevy::prelude::*;
 use horizon_field::FieldError;
 use horizon_field::field::HeightImage;
+use horizon_field::field::check::MAX_DEPTH;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -89,8 +90,10 @@ pub enum WorldFileError {
         source: TerrainError,
     },
     /// A height image can't be had.
-    #[error("the height image \"{path}\" can't be had: {reason}")]
+    #[error("{}the height image \"{path}\" can't be had: {reason}", line.map(|line| format!("line {line}: ")).unwrap_or_default())]
     Image {
+        /// The line, where it could be found.
+        line: Option<usize>,
         /// The image's path, from the root of the assets.
         path: String,
         /// Why.
@@ -150,7 +153,8 @@ impl WorldFile {
 /// RON without ceremony: `Fractal(wavelength: 4000.0)`, and no `Some`.
 fn options() -> ron::Options {
     use ron::extensions::Extensions;
-    ron::Options::default().with_default_extension(
+    // Deep enough for every tree that a field may be: each node takes a few of RON's levels.
+    ron::Options::default().with_recursion_limit(8 * MAX_DEPTH).with_default_extension(
         Extensions::UNWRAP_VARIANT_NEWTYPES | Extensions::UNWRAP_NEWTYPES | Extensions::IMPLICIT_SOME,
     )
 }
@@ -163,6 +167,7 @@ fn line_of(text: &str, error: &TerrainError) -> Option<usize> {
             (path, Some(*value))
         }
         TerrainError::Field(FieldError::Empty { path, low, .. }) => (path, Some(*low)),
+        TerrainError::Boundaries(heights) => (&String::from("boundaries"), Some(f64::from(heights[0]))),
         _ => return None,
     };
     let name = path.rsplit('.').next()?.split('[').next()?;
@@ -204,7 +209,8 @@ impl AssetLoader for WorldLoader {
         if let Some(terrain) = &mut world.terrain {
             let mut images = BTreeMap::new();
             for path in terrain.field.image_paths() {
-                let failed = |reason: String| WorldFileError::Image { path: path.clone(), reason };
+                let line = text.lines().position(|line| line.contains(&path)).map(|at| at + 1);
+                let failed = |reason: String| WorldFileError::Image { line, path: path.clone(), reason };
                 let bytes = context.read_asset_bytes(path.clone()).await.map_err(|error| failed(error.to_string()))?;
                 images.insert(path.clone(), HeightImage::from_png(&bytes).map_err(failed)?);
             }
@@ -221,6 +227,7 @@ impl AssetLoader for WorldLoader {
 }
 
 /// Put it on an entity, and the file's terrain and air appear on it, its sun as a child. When the file changes, they do.
+/// A file with a sun also sets Bevy's `GlobalAmbientLight` to the sun's `ambient`.
 #[derive(Component, Clone, Debug, Default, Reflect)]
 #[reflect(Component, Default, Clone)]
 #[require(Transform, Visibility)]
@@ -265,7 +272,7 @@ fn apply_worlds(
     mut commands: Commands,
     mut events: MessageReader<AssetEvent<WorldFile>>,
     files: Res<Assets<WorldFile>>,
-    worlds: Query<(Entity, Ref<HorizonWorld>, Option<&Children>)>,
+    worlds: Query<(Entity, Ref<HorizonWorld>, Option<&Terrain>, Option<&Children>)>,
     suns: Query<(), With<WorldSun>>,
     mut loaded: MessageWriter<WorldLoaded>,
 ) {
@@ -276,7 +283,7 @@ fn apply_worlds(
             _ => None,
         })
         .collect();
-    for (entity, world, children) in &worlds {
+    for (entity, world, current, children) in &worlds {
         if !(world.is_changed() || changed.contains(&world.0.id())) {
             continue;
         }
@@ -284,8 +291,10 @@ fn apply_worlds(
         let owner = entity;
         let mut entity = commands.entity(owner);
         match &file.terrain {
+            // Only a change fills caches anew.
+            Some(terrain) if current == Some(terrain) => &mut entity,
             Some(terrain) => entity.insert(terrain.clone()),
-            None => entity.remove::<(Terrain, CompiledTerrain)>(),
+            None => entity.remove::<Terrain>(),
         };
         match &file.atmosphere {
             Some(atmosphere) => entity.insert(atmosphere.clone()),
@@ -310,12 +319,17 @@ fn apply_worlds(
     }
 }
 
+/// Bevy's asset server has logged the failure by now; this says it to the game.
 fn report_failures(
     mut failed: MessageReader<AssetLoadFailedEvent<WorldFile>>,
     mut rejected: MessageWriter<WorldRejected>,
 ) {
     for failure in failed.read() {
-        error!("the world {} was refused, what was there before stays: {}", failure.path, failure.error);
-        rejected.write(WorldRejected { path: failure.path.to_string(), error: failure.error.to_string() });
+        let own = match &failure.error {
+            AssetLoadError::AssetLoaderError(error) => error.error().downcast_ref::<WorldFileError>(),
+            _ => None,
+        };
+        let error = own.map_or_else(|| failure.error.to_string(), ToString::to_string);
+        rejected.write(WorldRejected { path: failure.path.to_string(), error });
     }
 }

@@ -59,9 +59,8 @@ fn carry3(lo: vec3<u32>, hi: vec3<u32>, sum: vec3<u32>, i: vec3<i32>) -> vec3<u3
 }
 
 fn lattice2(layer: Layer2, anchor: Anchor2, q: vec2<f32>) -> LatticePoint2 {
-    let x = anchor.fraction + vec2<f32>(
-        layer.matrix.x * q.x + layer.matrix.y * q.y,
-        layer.matrix.z * q.x + layer.matrix.w * q.y);
+    // Term by term from the fraction on, as lattice.rs adds.
+    let x = anchor.fraction + layer.matrix.xz * q.x + layer.matrix.yw * q.y;
     let whole = floor(x);
     let i = vec2<i32>(whole);
     let lo = anchor.lo + bitcast<vec2<u32>>(i);
@@ -69,7 +68,11 @@ fn lattice2(layer: Layer2, anchor: Anchor2, q: vec2<f32>) -> LatticePoint2 {
 }
 
 fn lattice3(layer: Layer3, anchor: Anchor3, q: vec3<f32>) -> LatticePoint3 {
-    let x = anchor.fraction + vec3<f32>(dot(layer.row0, q), dot(layer.row1, q), dot(layer.row2, q));
+    // No dot product: its order of additions is the driver's.
+    let x = anchor.fraction
+        + vec3<f32>(layer.row0.x, layer.row1.x, layer.row2.x) * q.x
+        + vec3<f32>(layer.row0.y, layer.row1.y, layer.row2.y) * q.y
+        + vec3<f32>(layer.row0.z, layer.row1.z, layer.row2.z) * q.z;
     let whole = floor(x);
     let i = vec3<i32>(whole);
     let lo = anchor.lo + bitcast<vec3<u32>>(i);

@@ -11,10 +11,11 @@ use bevy::render::sync_world::RenderEntity;
 use horizon_field::Place;
 
 use super::kernel::TerrainKernel;
+use super::passes::ViewPasses;
 use super::uniforms::{MaterialUniform, SkyUniform};
 use super::view::ViewGround;
 use crate::camera::HorizonCamera;
-use crate::world::{Atmosphere, CompiledTerrain, Terrain, TerrainFields, WorldOrigin};
+use crate::world::{Atmosphere, CompiledTerrain, TerrainFields, WorldOrigin};
 
 /// The worlds, as they stand in this frame.
 #[derive(Resource, Default)]
@@ -27,6 +28,12 @@ pub struct ExtractedWorld {
 }
 
 impl ExtractedWorld {
+    /// The sun, and its angular radius in radians, while any of its disc stands over the level.
+    pub fn risen_sun(&self) -> Option<(ExtractedSun, f32)> {
+        let radius = self.atmospheres.first().map_or(Atmosphere::EARTH_SUN_RADIUS, |(_, radius, _)| *radius);
+        self.sun.filter(|sun| sun.direction.y > -radius.sin()).map(|sun| (sun, radius))
+    }
+
     /// The air that a camera sees.
     pub fn sky(&self, layers: &RenderLayers) -> Option<SkyUniform> {
         self.atmospheres.iter().find(|(_, _, l)| layers.intersects(l)).map(|(sky, _, _)| sky.clone())
@@ -61,7 +68,7 @@ pub struct ExtractedHorizonCamera {
 }
 
 impl SyncComponent for HorizonCamera {
-    type Target = (ExtractedHorizonCamera, ViewGround);
+    type Target = (ExtractedHorizonCamera, ViewGround, ViewPasses);
 }
 
 type Terrains<'w, 's> = Query<
@@ -69,7 +76,6 @@ type Terrains<'w, 's> = Query<
     's,
     (
         Entity,
-        &'static Terrain,
         &'static CompiledTerrain,
         &'static TerrainKernel,
         &'static GlobalTransform,
@@ -88,13 +94,13 @@ pub fn extract_world(
     world.origin = origin.0;
     world.settings = settings.clone();
     world.terrains.clear();
-    for (entity, terrain, compiled, kernel, transform, visibility, layers) in &terrains {
+    for (entity, compiled, kernel, transform, visibility, layers) in &terrains {
         if visibility.get() {
             world.terrains.push(ExtractedTerrain {
                 entity,
                 fields: compiled.0.clone(),
                 kernel: kernel.clone(),
-                material: MaterialUniform::new(&terrain.material),
+                material: MaterialUniform::new(&compiled.0.material),
                 translation: transform.translation(),
                 layers: layers.cloned().unwrap_or_default(),
             });

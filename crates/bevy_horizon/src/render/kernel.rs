@@ -1,6 +1,7 @@
 //! The sampling kernel of a terrain: the field's generated WGSL, with the fill pass behind it. Written in the main world,
 //! once for each structure of the tree; numbers do not enter.
 
+use bevy::platform::collections::HashMap;
 use bevy::prelude::*;
 use bevy::shader::Shader;
 use horizon_field::field::kernel::module;
@@ -21,9 +22,15 @@ pub fn named_fields(fields: &TerrainFields) -> [(&'static str, &horizon_field::C
     [("height", &fields.height), ("material_edge", &fields.edge), ("material_tint", &fields.tint)]
 }
 
+/// The kernels that were written, by structure: a tree that comes back, as undo brings it, compiles nothing. A game has
+/// as many as it has had structures.
+#[derive(Resource, Default)]
+pub struct Kernels(HashMap<u64, Handle<Shader>>);
+
 pub fn write_kernels(
     mut commands: Commands,
     mut shaders: ResMut<Assets<Shader>>,
+    mut kernels: ResMut<Kernels>,
     changed: Query<(Entity, &CompiledTerrain, Option<&TerrainKernel>), Changed<CompiledTerrain>>,
 ) {
     for (entity, compiled, old) in &changed {
@@ -31,8 +38,11 @@ pub fn write_kernels(
         if old.is_some_and(|old| old.structure == kernel.structure) {
             continue;
         }
-        let path = format!("bevy_horizon/generated/{:016x}.wgsl", kernel.structure);
-        let shader = shaders.add(Shader::from_wgsl(fill_source(&kernel.source), path));
+        let shader = kernels.0.entry(kernel.structure).or_insert_with(|| {
+            let path = format!("bevy_horizon/generated/{:016x}.wgsl", kernel.structure);
+            shaders.add(Shader::from_wgsl(fill_source(&kernel.source), path))
+        });
+        let shader = shader.clone();
         commands.entity(entity).insert(TerrainKernel { structure: kernel.structure, shader });
     }
 }

@@ -16,6 +16,7 @@ use bevy::render::renderer::{RenderGraph, RenderGraphSystems};
 use bevy::render::sync_component::SyncComponentPlugin;
 use bevy::render::view::prepare_view_targets;
 use bevy::render::{ExtractSchedule, Render, RenderApp, RenderSystems};
+use bevy::shader::Shader;
 
 use crate::HorizonSystems;
 use crate::camera::HorizonCamera;
@@ -28,9 +29,14 @@ pub struct HorizonRenderPlugin;
 
 impl Plugin for HorizonRenderPlugin {
     fn build(&self, app: &mut App) {
+        // A server under `MinimalPlugins` has no shaders: it has worlds and queries all the same.
+        if !app.world().contains_resource::<Assets<Shader>>() {
+            return;
+        }
         app.add_message::<ready::WorldReady>()
             .add_message::<ready::WorldProgress>()
             .init_resource::<cache::CacheSettings>()
+            .init_resource::<kernel::Kernels>()
             .add_plugins(SyncComponentPlugin::<HorizonCamera>::default())
             .add_systems(PostUpdate, kernel::write_kernels.after(HorizonSystems::Compile))
             .add_systems(PreUpdate, ready::report);

@@ -1,36 +1,36 @@
 //! How far the picture is: for loading screens and teleports.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use bevy::prelude::*;
 
-/// Every tile that the cameras need is up to date. Sent once each time that it becomes so.
+/// Every tile that the cameras need is filled and lit, and no kernel is being compiled. Sent once each time that it becomes so.
 #[derive(Message, Clone, Copy, Debug, PartialEq, Eq)]
 pub struct WorldReady;
 
 /// How much of what the cameras need is up to date; sent when it changes.
 #[derive(Message, Clone, Copy, Debug, PartialEq, Eq)]
 pub struct WorldProgress {
-    /// Tiles that are up to date.
+    /// Tiles that are up to date, and one for light and kernel of each cache.
     pub done: u32,
-    /// Tiles in all.
+    /// Tiles in all, and one for each cache.
     pub total: u32,
 }
 
 /// What the renderer last counted. It has no say in what is drawn.
 #[derive(Resource, Clone, Debug, Default)]
-pub struct Progress(Arc<(AtomicU32, AtomicU32)>);
+pub struct Progress(Arc<AtomicU64>);
 
 impl Progress {
     pub(crate) fn set(&self, done: usize, total: usize) {
-        self.0.0.store(done as u32, Ordering::Relaxed);
-        self.0.1.store(total as u32, Ordering::Relaxed);
+        self.0.store(((done as u64) << 32) | total as u64, Ordering::Relaxed);
     }
 
     /// The counts of the last frame that was drawn.
     pub fn get(&self) -> WorldProgress {
-        WorldProgress { done: self.0.0.load(Ordering::Relaxed), total: self.0.1.load(Ordering::Relaxed) }
+        let both = self.0.load(Ordering::Relaxed);
+        WorldProgress { done: (both >> 32) as u32, total: both as u32 }
     }
 }
 

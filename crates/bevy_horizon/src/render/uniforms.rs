@@ -72,7 +72,7 @@ impl SunUniform {
             low: tangent(elevation - radius),
             centre,
             // The disc's upper edge as far above its centre as keeps the penumbra's formula finite near the zenith.
-            high: tangent(elevation + radius).max(centre + 1e-6),
+            high: tangent(elevation + radius).max(centre + 1e-6 + 1e-4 * centre.abs()),
             radius,
             highest,
         }
@@ -155,9 +155,10 @@ impl SkyUniform {
             zenith: colour(atmosphere.zenith),
             horizon: colour(atmosphere.horizon),
             glow: colour(atmosphere.glow),
-            haze: atmosphere.haze,
-            haze_height: atmosphere.haze_height,
-            sun_cosine: atmosphere.sun_radius.cos(),
+            // `max` also takes the limit in place of NaN.
+            haze: atmosphere.haze.max(0.0),
+            haze_height: atmosphere.haze_height.max(1.0),
+            sun_cosine: atmosphere.sun_radius.max(1e-4).cos(),
             // Bright enough to bloom, dim enough for a half float.
             sun_luminance: 6e4,
         }

@@ -1,5 +1,7 @@
 //! A camera's rays, relative to its cache.
 
+use bevy::camera::MainPassResolutionOverride;
+use bevy::math::Vec4Swizzles;
 use bevy::prelude::*;
 use bevy::render::camera::{ExtractedCamera, TemporalJitter};
 use bevy::render::render_resource::DynamicUniformBuffer;
@@ -40,6 +42,7 @@ type Views<'w, 's> = Query<
         &'static ExtractedView,
         &'static ExtractedCamera,
         Option<&'static TemporalJitter>,
+        Option<&'static MainPassResolutionOverride>,
     ),
 >;
 
@@ -53,8 +56,9 @@ pub fn prepare_views(
 ) {
     uniforms.views.clear();
     uniforms.skies.clear();
-    for (mut ground, camera, view, extracted, jitter) in &mut views {
-        let size = extracted.physical_viewport_size.unwrap_or(UVec2::ONE).max(UVec2::ONE);
+    for (mut ground, camera, view, extracted, jitter, resolution) in &mut views {
+        let size = resolution.map(|size| size.0).or(extracted.physical_viewport_size);
+        let size = size.unwrap_or(UVec2::ONE).max(UVec2::ONE);
         let mut clip_from_view = view.clip_from_view;
         if let Some(jitter) = jitter {
             jitter.jitter_projection(&mut clip_from_view, size.as_vec2());
@@ -62,7 +66,7 @@ pub fn prepare_views(
         let y = ground.eye.cell[1] as f64 * horizon_field::CELL + ground.eye.offset[1];
         let eye = ground.cache.map_or(Vec3::new(0.0, y as f32, 0.0), |cache| caches.0[cache].eye(&ground.eye));
         let rotation = Mat3::from_quat(view.world_from_view.rotation());
-        let sun = world.sun.filter(|sun| sun.direction.y > -0.1);
+        let sun = world.risen_sun().map(|(sun, _)| sun);
         ground.offsets[0] = uniforms.views.push(&HorizonViewUniform {
             view_from_clip: clip_from_view.inverse(),
             clip_from_view,
@@ -70,7 +74,7 @@ pub fn prepare_views(
             up: rotation.y_axis,
             back: rotation.z_axis,
             eye,
-            viewport: view.viewport.as_vec4(),
+            viewport: view.viewport.xy().extend(size.x).extend(size.y).as_vec4(),
             sun_direction: sun.map_or(Vec3::Y, |sun| sun.direction),
             exposure: extracted.exposure,
             sun: sun.map_or(Vec3::ZERO, |sun| sun.illuminance),

@@ -6,7 +6,7 @@ use bevy::prelude::*;
 use horizon_field::{Compiled, FieldError};
 use thiserror::Error;
 
-use super::{ParamError, Terrain, check_params};
+use super::{ParamError, Terrain, TerrainMaterial, check_params};
 
 /// What [`Terrain`] became: the compiled height field and the noises of its material. Shared with queries and renderer.
 /// After a bad edit the last good one stays.
@@ -16,6 +16,8 @@ pub struct CompiledTerrain(pub(crate) Arc<TerrainFields>);
 #[derive(Debug)]
 pub(crate) struct TerrainFields {
     pub height: Compiled<2>,
+    #[cfg_attr(not(feature = "render"), expect(dead_code, reason = "only the picture has a look"))]
+    pub material: TerrainMaterial,
     #[cfg_attr(not(feature = "render"), expect(dead_code, reason = "only the picture has a look"))]
     pub edge: Compiled<2>,
     #[cfg_attr(not(feature = "render"), expect(dead_code, reason = "only the picture has a look"))]
@@ -34,6 +36,7 @@ impl CompiledTerrain {
         }
         Ok(Self(Arc::new(TerrainFields {
             height: terrain.field.compile(&terrain.images)?,
+            material: terrain.material.clone(),
             edge: terrain.material.edge.field().compile(&terrain.images)?,
             tint: terrain.material.tint.field().compile(&terrain.images)?,
         })))
@@ -85,5 +88,12 @@ pub(crate) fn compile_terrain(
                 rejected.write(TerrainRejected { entity, error });
             }
         }
+    }
+}
+
+/// Ground that is no more answers no questions.
+pub(crate) fn forget_terrain(removed: On<Remove, Terrain>, mut commands: Commands) {
+    if let Ok(mut entity) = commands.get_entity(removed.entity) {
+        entity.try_remove::<CompiledTerrain>();
     }
 }

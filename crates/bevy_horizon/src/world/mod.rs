@@ -11,8 +11,8 @@ mod terrain;
 pub use atmosphere::Atmosphere;
 #[cfg(feature = "render")]
 pub(crate) use compiled::TerrainFields;
-pub(crate) use compiled::compile_terrain;
 pub use compiled::{CompiledTerrain, TerrainError, TerrainRejected};
+pub(crate) use compiled::{compile_terrain, forget_terrain};
 pub use material::{NoiseLayer, TerrainMaterial};
 pub use origin::WorldOrigin;
 pub use param::{ParamError, check_params};

@@ -48,7 +48,10 @@ pub struct HeightImages(Arc<HashMap<String, Arc<HeightImage>>>);
 
 impl PartialEq for HeightImages {
     fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.0, &other.0)
+        let same = |(path, image): (&String, &Arc<HeightImage>)| {
+            other.0.get(path).is_some_and(|other| Arc::ptr_eq(image, other))
+        };
+        self.0.len() == other.0.len() && self.0.iter().all(same)
     }
 }
 

@@ -16,7 +16,9 @@ use super::clipmap::{Clipmap, DrawnLevel, TILE, TILE_BOUNDS, Tile, Work, place_o
 use crate::world::TerrainFields;
 
 /// Bytes of a tile: height, bounds, looks (normal and colour), light at a quarter.
-pub const TEXEL_BYTES: u64 = 4096 * (4 + 8 + 1) + TILE_BOUNDS * 8;
+pub const TILE_BYTES: u64 = 4096 * (4 + 1) + LOOK_BYTES + TILE_BOUNDS * 8;
+/// Bytes of a tile's looks: the largest of the buffers.
+pub const LOOK_BYTES: u64 = 4096 * 8;
 
 /// What the passes read.
 pub struct CacheBuffers {
@@ -168,11 +170,9 @@ impl FrameJobs {
         &mut self,
         buffers: &CacheBuffers,
         pipelines: &CachePipelines,
-        structure: u64,
         cache: &PipelineCache,
         device: &RenderDevice,
     ) {
-        debug_assert!(pipelines.ready(cache, structure));
         let Some(clipmap) = buffers.clipmap.binding() else { return };
         if let Some((_, [anchors, jobs, material], groups)) = &mut self.fill {
             groups[0] = Some(device.create_bind_group(

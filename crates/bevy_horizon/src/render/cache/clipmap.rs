@@ -64,8 +64,9 @@ pub struct Level {
     pub valid: TileRect,
     /// The tiles that should.
     target: TileRect,
-    /// By stored tile: its ground is out of date; its light is.
+    /// By stored tile: its ground is out of date; its light was never made; its light is out of date.
     stale: Vec<bool>,
+    dark: Vec<bool>,
     dim: Vec<bool>,
 }
 
@@ -98,6 +99,8 @@ pub struct Clipmap {
     capacity: usize,
     /// Finest first.
     levels: Vec<Level>,
+    /// Light was made before all the ground that may shadow it was there: it is made again once it is.
+    relight: bool,
 }
 
 /// A level as the shader sees it, in texels.
@@ -146,7 +149,7 @@ impl Clipmap {
     /// An empty clipmap of `side` tiles along each side, an even number of at least 4, and at most `capacity` levels.
     pub fn new(side: u32, capacity: usize) -> Self {
         assert!(side >= 4 && side.is_multiple_of(2), "a clipmap has an even number of tiles, at least 4");
-        Self { side: i64::from(side), capacity: capacity.clamp(1, MAX_LEVELS), levels: Vec::new() }
+        Self { side: i64::from(side), capacity: capacity.clamp(1, MAX_LEVELS), levels: Vec::new(), relight: false }
     }
 
     /// Tiles along a level's side.
@@ -178,7 +181,11 @@ impl Clipmap {
     /// level still lies in reach stays.
     pub fn recentre(&mut self, centre: &Place, finest: i32, coarsest: i32) {
         let coarsest = coarsest.clamp(FINEST, COARSEST);
-        let finest = finest.clamp((coarsest + 1 - self.capacity as i32).max(FINEST), coarsest);
+        let least = (coarsest + 1 - self.capacity as i32).max(FINEST);
+        let finest = finest.clamp(least, coarsest);
+        // One level finer than needed stays where it is there already: a camera that bobs fills it once.
+        let spare = finest > least && self.levels.iter().any(|level| level.exponent == finest - 1);
+        let finest = finest - i32::from(spare);
         self.levels.retain(|level| (finest..=coarsest).contains(&level.exponent));
         for exponent in finest..=coarsest {
             if !self.levels.iter().any(|level| level.exponent == exponent) {
@@ -190,6 +197,7 @@ impl Clipmap {
                     valid: TileRect::default(),
                     target: TileRect::default(),
                     stale: vec![false; tiles],
+                    dark: vec![false; tiles],
                     dim: vec![false; tiles],
                 });
             }
@@ -208,6 +216,7 @@ impl Clipmap {
         for level in &mut self.levels {
             level.stale.fill(true);
         }
+        self.relight = true;
     }
 
     /// The light has changed.
@@ -244,17 +253,25 @@ impl Clipmap {
                 }
             }
         }
+        let (done, total) = self.progress();
+        if self.relight && done == total {
+            self.relight = false;
+            self.invalidate_light();
+        }
+        // What never was lit first: it holds the light of another place.
         let drawn = self.drawn();
-        for i in (0..self.levels.len()).rev().filter(|i| drawn[*i].outer > 0.0) {
-            let level = &self.levels[i];
-            let dim: Vec<_> = level.valid.tiles().filter(|tile| level.dim[self.stored_in_level(*tile)]).collect();
-            for index in dim {
-                if lit && work.light.len() >= budget.max(work.fill.len()) {
-                    break;
+        for dark in [true, false] {
+            for i in (0..self.levels.len()).rev().filter(|i| drawn[*i].outer > 0.0) {
+                let tiles: Vec<_> = self.levels[i].valid.tiles().collect();
+                for index in tiles {
+                    let at = self.stored_in_level(index);
+                    let level = &mut self.levels[i];
+                    let wanted = if dark { level.dark[at] } else { level.dim[at] };
+                    if wanted && (!lit || work.light.len() < budget.max(work.fill.len())) {
+                        (level.dark[at], level.dim[at]) = (false, false);
+                        work.light.push(Tile { exponent: level.exponent, index });
+                    }
                 }
-                let at = self.stored_in_level(index);
-                self.levels[i].dim[at] = false;
-                work.light.push(Tile { exponent: self.levels[i].exponent, index });
             }
         }
         work
@@ -264,7 +281,7 @@ impl Clipmap {
         let at = self.stored_in_level(index);
         let level = &mut self.levels[level];
         level.stale[at] = false;
-        level.dim[at] = true;
+        level.dark[at] = true;
         work.fill.push(Tile { exponent: level.exponent, index });
     }
 
@@ -273,6 +290,7 @@ impl Clipmap {
             let Level { valid, target, centre, .. } = &self.levels[level];
             let (valid, target) = (*valid, *target);
             let grown = if valid.is_empty() {
+                self.relight = true;
                 let middle = centre.map(|c| (c + TILE / 2).div_euclid(TILE));
                 TileRect { min: middle.map(|m| m - 1), max: middle.map(|m| m + 1) }
             } else {
@@ -308,7 +326,12 @@ impl Clipmap {
 
     /// Whether every tile that holds ground is lit.
     pub fn is_lit(&self) -> bool {
-        self.levels.iter().all(|level| !level.valid.tiles().any(|tile| level.dim[self.stored_in_level(tile)]))
+        self.levels.iter().all(|level| {
+            !level.valid.tiles().any(|tile| {
+                let at = self.stored_in_level(tile);
+                level.dark[at] || level.dim[at]
+            })
+        })
     }
 
     /// All levels, finest first: each that can be drawn lies well inside the next; the others have no radius.

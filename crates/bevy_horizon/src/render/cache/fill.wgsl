@@ -26,9 +26,12 @@ fn pack_normal(gradient: vec2<f32>) -> u32 {
 fn fill(@builtin(global_invocation_id) id: vec3<u32>) {
     let job = jobs[id.z];
     let q = vec2<f32>(id.xy) * job.texel;
-    let ground = height(job.anchor, q, job.texel);
+    // An octave is whole down to waves of 1.5 texels, and gone at 0.75: texels lie still in the world, so that what little
+    // aliases does not crawl, and thin ridges keep their height for longer.
+    let cutoff = 0.75 * job.texel;
+    let ground = height(job.anchor, q, cutoff);
     let index = job.tile * 4096u + id.y * 64u + id.x;
     heights[index] = ground.x;
-    let colour = material_at(job.anchor, q, job.texel, ground);
+    let colour = material_at(job.anchor, q, job.texel, cutoff, ground);
     looks[index] = vec2<u32>(pack_normal(ground.yz), pack4x8unorm(colour));
 }

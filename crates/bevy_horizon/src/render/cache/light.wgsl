@@ -52,7 +52,7 @@ fn horizon(start_level: u32, start: vec2<i32>) -> f32 {
     var origin = vec2<f32>(start);
     var h0 = stored_height(l, start);
     let positive = sun.towards >= vec2<f32>(0.0);
-    let inverse = select(1.0 / sun.towards, vec2<f32>(1e30), abs(sun.towards) < vec2<f32>(1e-20));
+    let inverse = select(1.0 / sun.towards, select(vec2<f32>(-1e30), vec2<f32>(1e30), positive), abs(sun.towards) < vec2<f32>(1e-20));
     var found = sun.low;
     var d = 0.0;
     var mip = 1u;

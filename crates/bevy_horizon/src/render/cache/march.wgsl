@@ -158,10 +158,23 @@ fn descend(walk: ptr<function, Walk>, ray: Ray, inverse: vec2<f32>, positive: ve
     }
 }
 
-fn march(ray: Ray, t_start: f32, t_far: f32) -> Found {
+// When the ray leaves the square of half-width r around the centre.
+fn leaves_square(ray: Ray, inverse: vec2<f32>, r: f32) -> f32 {
+    let a = (vec2<f32>(-r) - ray.origin.xz) * inverse;
+    let b = (vec2<f32>(r) - ray.origin.xz) * inverse;
+    return min(max(a.x, b.x), max(a.y, b.y));
+}
+
+fn march(ray: Ray, t_start: f32, far: f32) -> Found {
+    if (clipmap.count == 0u) {
+        return Found(-1.0, 0u, vec2<i32>(0), 0u);
+    }
     let positive = ray.direction.xz >= vec2<f32>(0.0);
     // A direction that is all but level with an axis never crosses that axis' lines.
-    let inverse = select(1.0 / ray.direction.xz, vec2<f32>(1e30), abs(ray.direction.xz) < vec2<f32>(1e-20));
+    let inverse = select(1.0 / ray.direction.xz, select(vec2<f32>(-1e30), vec2<f32>(1e30), positive), abs(ray.direction.xz) < vec2<f32>(1e-20));
+    // The world ends at the coarsest level's rim: behind it lie patches that were never filled.
+    let coarsest = clipmap.levels[clipmap.count - 1u];
+    let t_far = min(far, leaves_square(ray, inverse, coarsest.outer * coarsest.texel));
     var walk: Walk;
     walk.t = t_start;
     walk.mip = TOP_MIP;

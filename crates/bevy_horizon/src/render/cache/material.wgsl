@@ -34,10 +34,10 @@ fn strata_noise(s: f32) -> f32 {
 }
 
 // Albedo, as its square root so that dark colours keep their steps in 8 bits, and gloss.
-fn material_at(anchor: u32, q: vec2<f32>, texel: f32, ground: vec3<f32>) -> vec4<f32> {
+fn material_at(anchor: u32, q: vec2<f32>, texel: f32, cutoff: f32, ground: vec3<f32>) -> vec4<f32> {
     let up = inverseSqrt(1.0 + dot(ground.yz, ground.yz));
-    let shift = material_edge(anchor, q, texel).x;
-    let tint = material_tint(anchor, q, texel).x;
+    let shift = material_edge(anchor, q, cutoff).x;
+    let tint = material_tint(anchor, q, cutoff).x;
     let h = ground.x + shift;
     // A texel holds all the heights that its slope spans: boundaries are at least as soft as that.
     let softness = material.softness + vec4<f32>(0.5 * texel * length(ground.yz));

@@ -2,8 +2,10 @@
 
 mod buffers;
 pub mod clipmap;
+mod demand;
 mod pipelines;
 
+use bevy::math::DVec3;
 use bevy::prelude::*;
 use bevy::render::camera::ExtractedCamera;
 use bevy::render::render_resource::PipelineCache;
@@ -12,14 +14,17 @@ use bevy::render::view::ExtractedView;
 use horizon_field::Place;
 
 pub use self::buffers::CacheBuffers;
-use self::buffers::{FrameJobs, TEXEL_BYTES};
-use self::clipmap::{COARSEST, Clipmap, DrawnLevel, FINEST, MAX_LEVELS, TILE};
+use self::buffers::FrameJobs;
+use self::clipmap::{Clipmap, DrawnLevel, TILE};
+use self::demand::Demand;
+pub use self::demand::pixel_size;
 pub use self::pipelines::CachePipelines;
 use super::extract::{ExtractedHorizonCamera, ExtractedTerrain, ExtractedWorld};
+use super::passes::ViewPasses;
 use super::ready::Progress;
 use super::uniforms::{MaterialUniform, SunUniform};
 use super::view::ViewGround;
-use crate::world::{Atmosphere, TerrainFields};
+use crate::world::TerrainFields;
 use std::sync::Arc;
 
 /// How much the caches may take. A resource of the main world.
@@ -46,6 +51,8 @@ pub struct Cache {
     terrain: Entity,
     clipmap: Clipmap,
     centre: Place,
+    /// The exponents of the finest and the coarsest level that its cameras want.
+    range: [i32; 2],
     /// What the tiles are filled with, once the pipeline for it is ready.
     fields: Arc<TerrainFields>,
     structure: u64,
@@ -57,64 +64,6 @@ pub struct Cache {
     used: bool,
     /// Tiles filled since the cache was made.
     pub filled: u64,
-}
-
-/// What a view asks of its cache.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Demand {
-    side: u32,
-    capacity: usize,
-    finest: i32,
-    coarsest: i32,
-}
-
-/// The field of view for which a level's size is chosen: of the target's height alone, so that zooming does not
-/// rebuild the cache.
-const NOMINAL_FOV: f32 = 60.0;
-
-impl Demand {
-    fn new(
-        camera: &ExtractedHorizonCamera,
-        height_px: u32,
-        pixel: f32,
-        altitude: f64,
-        fields: &TerrainFields,
-        share: u32,
-    ) -> Self {
-        // At the inner side of a level's ring, (outer · inner part) / 2 texels from the centre, a texel may be as large as
-        // twice the budget in pixels: its bow and the octaves left out are a fraction of it.
-        let budget = camera.camera.error_budget.clamp(0.1, 16.0);
-        let nominal = 2.0 * (NOMINAL_FOV.to_radians() / 2.0).tan() / height_px.max(1) as f32;
-        let texels = 2.0 * (1.0 / (0.8 * nominal * 2.0 * budget) + 34.0);
-        let even_tiles = |texels: f32| ((texels / (2 * TILE) as f32).ceil() as u32 * 2).max(4);
-        let mut side = even_tiles(texels);
-        // Below an eighth of the field's finest wave, a patch is as smooth as what it stands for; a colour needs a quarter.
-        let finest = (fields.height.finest_wavelength() / 8.0)
-            .min(fields.edge.finest_wavelength() / 4.0)
-            .min(fields.tint.finest_wavelength() / 4.0);
-        let detail = finest.log2().floor().clamp(FINEST.into(), COARSEST.into()) as i32;
-        let far = camera.camera.far.clamp(1.0, 1e6);
-        loop {
-            let reach = (side as i64 * TILE / 2 - 34) as f32;
-            let coarsest = ((far / reach).log2().ceil() as i32).clamp(FINEST, COARSEST);
-            let capacity = (coarsest - detail.min(coarsest) + 1).clamp(1, MAX_LEVELS as i32) as usize;
-            let level_bytes = (i64::from(side) * TILE).pow(2) as u64 * TEXEL_BYTES / 4096;
-            let affordable = (u64::from(share) << 20) / level_bytes;
-            if affordable >= capacity as u64 || side <= 6 {
-                let capacity = capacity.min(affordable.max(1) as usize);
-                // Nothing is nearer than the ground below.
-                let nearest = f64::from(pixel) * altitude.max(1.0) * 2.0 * f64::from(budget);
-                let finest = (nearest.log2().floor() as i32).clamp(detail.min(coarsest), coarsest);
-                return Self { side, capacity, finest, coarsest };
-            }
-            side -= 2;
-        }
-    }
-}
-
-/// Radians per pixel, or metres per pixel of an orthographic view.
-pub fn pixel_size(view: &ExtractedView, height_px: u32) -> f32 {
-    2.0 / (view.clip_from_view.y_axis.y.abs().max(1e-9) * height_px.max(1) as f32)
 }
 
 type Views<'w, 's> =
@@ -133,6 +82,8 @@ pub fn prepare_caches(
     views: Views,
 ) {
     let caches = &mut caches.0;
+    // What no camera looked at goes; views name caches by index, anew in each frame.
+    caches.retain(|cache| cache.used);
     for cache in caches.iter_mut() {
         cache.used = false;
         cache.jobs = FrameJobs::default();
@@ -146,33 +97,21 @@ pub fn prepare_caches(
         let sky = world.sky(&camera.layers);
         let terrain = terrain_of(camera);
         if terrain.is_none() && sky.is_none() {
-            commands.entity(entity).remove::<ViewGround>();
+            commands.entity(entity).remove::<(ViewGround, ViewPasses)>();
             continue;
         }
-        let from = view.world_from_view.translation() - terrain.map_or(Vec3::ZERO, |terrain| terrain.translation);
-        let eye = world.origin.translated(from.to_array().map(f64::from));
+        let terrain_at = terrain.map_or(DVec3::ZERO, |terrain| terrain.translation.as_dvec3());
+        let eye = world.origin.translated((view.world_from_view.translation().as_dvec3() - terrain_at).to_array());
         let cache = terrain.map(|terrain| {
-            let height_px = extracted.physical_viewport_size.map_or(1, |size| size.y);
-            let altitude =
-                (eye.cell[1] as f64 * horizon_field::CELL + eye.offset[1] - ground_height(terrain, &eye)).abs();
-            let demand = Demand::new(camera, height_px, pixel_size(view, height_px), altitude, &terrain.fields, share);
+            let demand = Demand::new(camera, view, extracted, &eye, &terrain.fields, share, &device);
             let index = find_cache(caches, terrain, &eye, &demand).unwrap_or_else(|| {
                 caches.push(Cache::new(terrain, &demand, &device));
                 caches.len() - 1
             });
-            let cache = &mut caches[index];
-            if !cache.used {
-                cache.used = true;
-                cache.centre = eye;
-                cache.clipmap.recentre(&eye, demand.finest, demand.coarsest);
-            }
+            caches[index].look(&eye, &demand);
             index
         });
         commands.entity(entity).insert(ViewGround { cache, eye, sky, offsets: [0; 2] });
-    }
-    // A cache that no camera looks at goes; views name caches by index, so the order of the rest must not change.
-    while caches.last().is_some_and(|cache| !cache.used) {
-        caches.pop();
     }
     let (mut done, mut total) = (0, 0);
     for cache in caches.iter_mut().filter(|cache| cache.used) {
@@ -180,30 +119,26 @@ pub fn prepare_caches(
         pipelines.queue(&pipeline_cache, terrain);
         cache.prepare(terrain, &world, &pipelines, &pipeline_cache, &device, &queue);
         let (cache_done, cache_total) = cache.clipmap.progress();
-        done += cache_done;
-        total += cache_total.max(1);
+        // One more, for the light and for a kernel that still compiles.
+        let finished = cache.clipmap.is_lit() && Arc::ptr_eq(&cache.fields, &terrain.fields);
+        done += cache_done + usize::from(finished);
+        total += cache_total + 1;
     }
     progress.set(done, total);
-}
-
-fn ground_height(terrain: &ExtractedTerrain, eye: &Place) -> f64 {
-    let height = &terrain.fields.height;
-    height.value(&height.anchor(eye), [0.0, 0.0], 0.0f64)
 }
 
 /// A cache of this terrain and size: one that is used by a camera nearby, or else one that is free.
 fn find_cache(caches: &[Cache], terrain: &ExtractedTerrain, eye: &Place, demand: &Demand) -> Option<usize> {
     let fits = |cache: &Cache| {
         cache.terrain == terrain.entity
-            && cache.clipmap.side().abs_diff(demand.side) <= 1
+            && cache.clipmap.side() == demand.side
             && cache.clipmap.capacity() == demand.capacity
     };
+    // Well inside the finest level that either wants.
     let near = |cache: &Cache| {
-        let [x, y, z] = eye.minus(&cache.centre);
-        cache.drawn.iter().find(|level| level.outer > 0.0).is_some_and(|finest| {
-            let reach = f64::from(finest.outer) * f64::from(finest.exponent).exp2() / 4.0;
-            x.abs().max(y.abs()).max(z.abs()) < reach
-        })
+        let finest = demand.finest.min(cache.range[0]);
+        let reach = f64::from(finest).exp2() * (i64::from(demand.side) * TILE) as f64 / 8.0;
+        eye.minus(&cache.centre).iter().all(|d| d.abs() < reach)
     };
     let shared = caches.iter().position(|cache| fits(cache) && cache.used && near(cache));
     shared.or_else(|| {
@@ -219,6 +154,7 @@ impl Cache {
             terrain: terrain.entity,
             clipmap: Clipmap::new(demand.side, demand.capacity),
             centre: Place::ORIGIN,
+            range: [demand.finest, demand.coarsest],
             fields: terrain.fields.clone(),
             structure: terrain.kernel.structure,
             material: terrain.material.clone(),
@@ -229,6 +165,18 @@ impl Cache {
             used: false,
             filled: 0,
         }
+    }
+
+    /// A camera looks at it: the first one is its centre, the others add the levels that they want.
+    fn look(&mut self, eye: &Place, demand: &Demand) {
+        if self.used {
+            self.range = [self.range[0].min(demand.finest), self.range[1].max(demand.coarsest)];
+        } else {
+            self.used = true;
+            self.centre = *eye;
+            self.range = [demand.finest, demand.coarsest];
+        }
+        self.clipmap.recentre(&self.centre, self.range[0], self.range[1]);
     }
 
     /// The camera's place, relative to the centre; y above the datum.
@@ -247,42 +195,34 @@ impl Cache {
         device: &RenderDevice,
         queue: &RenderQueue,
     ) {
-        // While a new kernel compiles, the old picture stays.
-        if pipelines.ready(pipeline_cache, terrain.kernel.structure) {
-            let changed = !Arc::ptr_eq(&self.fields, &terrain.fields) || self.material != terrain.material;
-            if changed {
-                self.fields = terrain.fields.clone();
-                self.material = terrain.material.clone();
-                self.structure = terrain.kernel.structure;
-                self.buffers.set_fields(&self.fields, device);
-                self.clipmap.invalidate();
-            }
+        // While a new kernel compiles, the old one goes on.
+        let changed = !Arc::ptr_eq(&self.fields, &terrain.fields);
+        if changed && pipelines.ready(pipeline_cache, terrain.kernel.structure) {
+            self.fields = terrain.fields.clone();
+            self.material = terrain.material.clone();
+            self.structure = terrain.kernel.structure;
+            self.buffers.set_fields(&self.fields, device);
+            self.clipmap.invalidate();
+        }
+        if pipelines.ready(pipeline_cache, self.structure) {
             let sun = self.sun(world);
             let budget = world.settings.tiles_per_frame.max(1) as usize;
             let work = self.clipmap.work(budget, sun.is_some());
             self.filled += work.fill.len() as u64;
-            self.drawn = self.clipmap.drawn();
-            self.buffers.set_clipmap(&self.drawn, self.clipmap.side(), device, queue);
             self.jobs = FrameJobs::new(&work, &self.clipmap, &self.fields, &self.material, sun, device);
-            self.jobs.bind(&self.buffers, pipelines, self.structure, pipeline_cache, device);
-        } else {
-            self.drawn = self.clipmap.drawn();
-            self.buffers.set_clipmap(&self.drawn, self.clipmap.side(), device, queue);
         }
+        self.drawn = self.clipmap.drawn();
+        self.buffers.set_clipmap(&self.drawn, self.clipmap.side(), device, queue);
+        self.jobs.bind(&self.buffers, pipelines, pipeline_cache, device);
     }
 
     /// The sun that the ground is lit by. It is followed in steps of a fifth of its radius, which no penumbra shows, and
     /// none while it is down.
     fn sun(&mut self, world: &ExtractedWorld) -> Option<SunUniform> {
-        let Some(sun) = world.sun else {
+        let Some((sun, radius)) = world.risen_sun() else {
             self.sun = None;
             return None;
         };
-        let radius = world.atmospheres.first().map_or(Atmosphere::EARTH_SUN_RADIUS, |(_, radius, _)| *radius);
-        if sun.direction.y < -radius.sin() {
-            self.sun = None;
-            return None;
-        }
         // A sun that moves on before all is lit waits, so that the fine levels have their turn.
         let moved = |(direction, last_radius): (Vec3, f32)| {
             last_radius != radius || direction.angle_between(sun.direction) > 0.2 * radius

@@ -93,13 +93,17 @@ fn coarser(l: Level, cell: vec2<i32>) -> vec2<i32> {
 // How far a point (in texels from the centre's texel) is blended into the next level: 0 inside, 1 at the rim.
 fn blend_at(l: Level, at: vec2<f32>) -> f32 {
     let d = abs(at - l.fraction);
+    // The coarsest level has none to be blended into.
+    if (l.inner >= l.outer) {
+        return 0.0;
+    }
     return clamp((max(d.x, d.y) - l.inner) / (l.outer - l.inner), 0.0, 1.0);
 }
 
 // Whether anything of the square low .. low + size, in texels, is blended.
 fn is_blended(l: Level, low: vec2<i32>, size: f32) -> bool {
     let far = abs(vec2<f32>(low) + 0.5 * size - l.fraction) + 0.5 * size;
-    return max(far.x, far.y) > l.inner;
+    return max(far.x, far.y) > l.inner && l.inner < l.outer;
 }
 
 fn bilinear(h: vec4<f32>, u: f32, v: f32) -> f32 {

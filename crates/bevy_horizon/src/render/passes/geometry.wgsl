@@ -61,7 +61,8 @@ fn look_at(level: u32, p: vec2<f32>) -> Look {
 // Lambert for the body; for the surface Blinn–Phong, normalised, under Schlick's Fresnel term.
 fn shade(look: Look, direction: vec3<f32>) -> vec3<f32> {
     let n_l = max(dot(look.normal, view.sun_direction), 0.0);
-    let half_way = normalize(view.sun_direction - direction);
+    // A ray that looks along the sun's has no half way.
+    let half_way = normalize(view.sun_direction - direction + vec3<f32>(0.0, 1e-6, 0.0));
     let power = exp2(2.0 + 6.0 * look.gloss);
     let schlick = pow(1.0 - max(dot(half_way, view.sun_direction), 0.0), 5.0);
     let fresnel = 0.04 + 0.96 * schlick;

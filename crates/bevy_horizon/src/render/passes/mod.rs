@@ -10,7 +10,7 @@ use bevy::core_pipeline::Core3d;
 use bevy::core_pipeline::core_3d::{main_opaque_pass_3d, main_transparent_pass_3d};
 use bevy::core_pipeline::schedule::Core3dSystems;
 use bevy::core_pipeline::tonemapping::{Tonemapping, TonemappingLuts, get_lut_bindings};
-use bevy::pbr::screen_space_reflections;
+use bevy::pbr::{main_transmissive_pass_3d, screen_space_reflections};
 use bevy::prelude::*;
 use bevy::render::camera::ExtractedCamera;
 use bevy::render::render_asset::RenderAssets;
@@ -47,7 +47,8 @@ pub fn add_ground(render_app: &mut SubApp) {
 
 /// Adds the air's pass.
 pub fn add_sky(render_app: &mut SubApp) {
-    let pass = sky::draw_sky.after(main_opaque_pass_3d).before(main_transparent_pass_3d);
+    let pass =
+        sky::draw_sky.after(main_opaque_pass_3d).before(main_transmissive_pass_3d).before(main_transparent_pass_3d);
     render_app.add_systems(Core3d, pass.in_set(Core3dSystems::MainPass));
 }
 

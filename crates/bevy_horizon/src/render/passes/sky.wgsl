@@ -18,19 +18,24 @@ struct Sky {
 @group(0) @binding(0) var<uniform> view: View;
 @group(0) @binding(1) var<uniform> sky: Sky;
 
+// 1 where there is a sun in the sky, 0 where there is none.
+fn has_sun() -> f32 {
+    return select(0.0, 1.0, any(view.sun > vec3<f32>(0.0)));
+}
+
 // The haze's own light: the horizon's, warmer around the sun.
 fn haze_light(direction: vec3<f32>) -> vec3<f32> {
     let c = max(dot(direction, view.sun_direction), 0.0);
-    return sky.horizon.rgb + sky.glow.rgb * (0.6 * pow(c, 8.0) + 0.15 * c * c);
+    return sky.horizon.rgb + has_sun() * sky.glow.rgb * (0.6 * pow(c, 8.0) + 0.15 * c * c);
 }
 
 fn sky_light(direction: vec3<f32>) -> vec3<f32> {
     let up = max(direction.y, 0.0);
     let c = dot(direction, view.sun_direction);
-    var light = mix(haze_light(direction), sky.zenith.rgb + sky.glow.rgb * 0.25 * pow(max(c, 0.0), 32.0), 1.0 - pow(1.0 - up, 5.0));
+    var light = mix(haze_light(direction), sky.zenith.rgb + has_sun() * sky.glow.rgb * 0.25 * pow(max(c, 0.0), 32.0), 1.0 - pow(1.0 - up, 5.0));
     // The disc's edge is as soft as a pixel.
     let softness = max(view.pixel * 0.01, 2e-6);
-    light += normalize(view.sun + 1e-6) * sky.sun_luminance * smoothstep(sky.sun_cosine - softness, sky.sun_cosine + softness, c);
+    light += has_sun() * normalize(view.sun + 1e-6) * sky.sun_luminance * smoothstep(sky.sun_cosine - softness, sky.sun_cosine + softness, c);
     return light;
 }
 
