@@ -4,7 +4,6 @@ mod anchoring;
 mod compose;
 mod device;
 mod engine;
-mod first;
 mod golden;
 mod march;
 mod parity;

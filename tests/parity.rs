@@ -198,7 +198,7 @@ fn difference<const D: usize>(
     texel: f64,
     gradient: [f64; D],
 ) -> f64 {
-    let h = 1e-4 * texel;
+    let h = 2e-5 * texel;
     let differences = core::array::from_fn(|axis| {
         let (mut before, mut after) = (q, q);
         before[axis] -= h;
@@ -277,7 +277,8 @@ fn check_trees<const D: usize>(seed: u32, trees: u32) {
     let mut random = Random::new(seed);
     let (mut worst, mut steep) = (0.0f64, 0);
     for i in 0..trees {
-        let field = arbitrary::field(&mut random, 2 + i % 2);
+        // Deep ones are few: a software driver needs seconds to compile them.
+        let field = arbitrary::field(&mut random, if i % 3 == 0 { 3 } else { 2 });
         let name = format!("tree {i} ({})", field.name());
         let report = check::<D>(&name, &field, 128);
         let allowed = tolerance(&field);
