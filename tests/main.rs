@@ -3,6 +3,7 @@
 mod anchoring;
 mod compose;
 mod device;
+mod editing;
 mod engine;
 mod golden;
 mod march;

@@ -1,7 +1,7 @@
 //! The picture. One stage a file, in data-flow order: `extract` (from the main world), `uniforms` (as shaders see it),
 //! `cache` (the field, at the resolution that the screen can show), `view` (a camera's rays), `passes` (into the view).
 
-pub(crate) mod cache;
+pub mod cache;
 pub(crate) mod extract;
 mod kernel;
 pub(crate) mod passes;

@@ -1,7 +1,7 @@
 //! The field, at the resolution that the screen can show: clipmaps on the device, filled once per texel.
 
 mod buffers;
-pub mod clipmap;
+pub(crate) mod clipmap;
 mod demand;
 mod pipelines;
 
@@ -13,12 +13,12 @@ use bevy::render::renderer::{RenderContext, RenderDevice, RenderQueue};
 use bevy::render::view::ExtractedView;
 use horizon_field::Place;
 
-pub use self::buffers::CacheBuffers;
+pub(crate) use self::buffers::CacheBuffers;
 use self::buffers::FrameJobs;
 use self::clipmap::{Clipmap, DrawnLevel, TILE};
 use self::demand::Demand;
-pub use self::demand::pixel_size;
-pub use self::pipelines::CachePipelines;
+pub(crate) use self::demand::pixel_size;
+pub(crate) use self::pipelines::CachePipelines;
 use super::extract::{ExtractedHorizonCamera, ExtractedTerrain, ExtractedWorld};
 use super::passes::ViewPasses;
 use super::ready::Progress;
@@ -42,12 +42,19 @@ impl Default for CacheSettings {
     }
 }
 
-/// The caches of all terrains and cameras.
+/// The caches of all terrains and cameras. A resource of the render world.
 #[derive(Resource, Default)]
-pub struct Caches(pub Vec<Cache>);
+pub struct Caches(pub(crate) Vec<Cache>);
+
+impl Caches {
+    /// How many tiles were filled since the caches of this frame were made: what a moving camera costs, exactly.
+    pub fn tiles_filled(&self) -> u64 {
+        self.0.iter().map(|cache| cache.filled).sum()
+    }
+}
 
 /// The ground around one or more cameras.
-pub struct Cache {
+pub(crate) struct Cache {
     terrain: Entity,
     clipmap: Clipmap,
     centre: Place,
@@ -63,14 +70,14 @@ pub struct Cache {
     jobs: FrameJobs,
     used: bool,
     /// Tiles filled since the cache was made.
-    pub filled: u64,
+    filled: u64,
 }
 
 type Views<'w, 's> =
     Query<'w, 's, (Entity, &'static ExtractedHorizonCamera, &'static ExtractedView, &'static ExtractedCamera)>;
 
 /// Finds each view's cache, moves it along, and makes out what is to be filled.
-pub fn prepare_caches(
+pub(crate) fn prepare_caches(
     mut commands: Commands,
     mut caches: ResMut<Caches>,
     mut pipelines: ResMut<CachePipelines>,
@@ -237,7 +244,7 @@ impl Cache {
 }
 
 /// The compute passes of all caches, before any camera draws.
-pub fn fill_caches(
+pub(crate) fn fill_caches(
     caches: Res<Caches>,
     pipelines: Res<CachePipelines>,
     pipeline_cache: Res<PipelineCache>,

@@ -50,11 +50,12 @@ fn nothing_escapes_a_bound() {
             points += check::<2>(&field, &mut random, 12) + check::<3>(&field, &mut random, 4);
         }
     }
-    for _ in 0..500 {
+    // And ten thousand trees, each with boxes of its own.
+    for _ in 0..10_000 {
         let field = field(&mut random, 4);
-        points += check::<2>(&field, &mut random, 12) + check::<3>(&field, &mut random, 2);
+        points += check::<2>(&field, &mut random, 2) + check::<3>(&field, &mut random, 1);
     }
-    assert!(points >= 100_000, "{points}");
+    assert!(points >= 400_000, "{points}");
 }
 
 #[test]
