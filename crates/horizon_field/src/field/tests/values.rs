@@ -207,21 +207,3 @@ fn every_kind_of_node_is_tested() {
         assert_eq!(*kind, field.name());
     }
 }
-#[test]
-#[ignore = "a measurement"]
-fn speed() {
-    const POINTS: u32 = 200_000;
-    let field = Field::default().compile::<2>(&NoImages).unwrap();
-    let at = field.anchor(&Place::ORIGIN);
-    let measure = |evaluate: &dyn Fn(u32) -> f64| {
-        let start = std::time::Instant::now();
-        let sum: f64 = (0..POINTS).map(evaluate).sum();
-        (start.elapsed().as_secs_f64() * 1e9 / f64::from(POINTS), sum)
-    };
-    println!("12 octaves, ns and sum: f64 {:?}", measure(&|i| field.value_f64(&at, [f64::from(i), 7.0], 0.0)));
-    println!("12 octaves, ns and sum: f32 {:?}", measure(&|i| f64::from(field.value_f32(&at, [i as f32, 7.0], 0.0))));
-    for half in [1000.0, 100.0, 10.0, 1.0] {
-        let rest = |i| field.bound(&at, [f64::from(i), 7.0], [half; 2]).rest;
-        println!("bound of ±{half} m, ns and sum: {:?}", measure(&rest));
-    }
-}
