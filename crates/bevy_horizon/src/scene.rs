@@ -230,7 +230,8 @@ impl AssetLoader for WorldLoader {
 /// A file with a sun also sets Bevy's `GlobalAmbientLight` to the sun's `ambient`.
 #[derive(Component, Clone, Debug, Default, Reflect)]
 #[reflect(Component, Default, Clone)]
-#[require(Transform, Visibility)]
+#[require(Transform)]
+#[cfg_attr(feature = "render", require(Visibility))]
 pub struct HorizonWorld(pub Handle<WorldFile>);
 
 /// The sun that a world file brought, as a `DirectionalLight` under its [`HorizonWorld`].

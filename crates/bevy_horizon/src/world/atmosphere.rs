@@ -9,7 +9,8 @@ use serde::{Deserialize, Serialize};
 /// Without it there is neither sky nor haze, and what the camera cleared to, or Bevy's own skybox, shows.
 #[derive(Component, Clone, Debug, PartialEq, Reflect, Serialize, Deserialize)]
 #[reflect(Component, Default, Clone, PartialEq)]
-#[require(Transform, Visibility)]
+#[require(Transform)]
+#[cfg_attr(feature = "render", require(Visibility))]
 #[serde(default, deny_unknown_fields)]
 pub struct Atmosphere {
     /// Luminance of the zenith, in cd/m², linear RGB. Default: a clear blue.

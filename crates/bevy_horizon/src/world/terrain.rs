@@ -16,7 +16,8 @@ use super::TerrainMaterial;
 /// it, `RenderLayers` choose the cameras that see it. One terrain is drawn for each camera: the first that it sees.
 #[derive(Component, Clone, Debug, PartialEq, Reflect, Serialize, Deserialize)]
 #[reflect(Component, Default, Clone, PartialEq)]
-#[require(Transform, Visibility)]
+#[require(Transform)]
+#[cfg_attr(feature = "render", require(Visibility))]
 #[serde(default, deny_unknown_fields)]
 pub struct Terrain {
     /// The height, in metres, as a function of x and z. Default: an fBm of 12 octaves, 600 m high.
