@@ -1,9 +1,8 @@
 //! The passes of a view: the ground before Bevy's opaque meshes, so that depth sorts the two; the air after them, over
 //! both.
 
-mod geometry;
+mod draw;
 mod pipelines;
-mod sky;
 
 use bevy::app::SubApp;
 use bevy::core_pipeline::Core3d;
@@ -38,17 +37,14 @@ pub struct ViewPasses {
 pub fn add_ground(render_app: &mut SubApp) {
     render_app.add_systems(
         Core3d,
-        geometry::draw_ground
-            .after(screen_space_reflections)
-            .before(main_opaque_pass_3d)
-            .in_set(Core3dSystems::MainPass),
+        draw::draw_ground.after(screen_space_reflections).before(main_opaque_pass_3d).in_set(Core3dSystems::MainPass),
     );
 }
 
 /// Adds the air's pass.
 pub fn add_sky(render_app: &mut SubApp) {
     let pass =
-        sky::draw_sky.after(main_opaque_pass_3d).before(main_transmissive_pass_3d).before(main_transparent_pass_3d);
+        draw::draw_sky.after(main_opaque_pass_3d).before(main_transmissive_pass_3d).before(main_transparent_pass_3d);
     render_app.add_systems(Core3d, pass.in_set(Core3dSystems::MainPass));
 }
 

@@ -25,6 +25,16 @@ pub enum Pass {
     Sky,
 }
 
+impl Pass {
+    /// Its name, in pipelines, passes and spans.
+    pub const fn label(self) -> &'static str {
+        match self {
+            Self::Ground => "horizon_ground",
+            Self::Sky => "horizon_sky",
+        }
+    }
+}
+
 /// What a pipeline depends on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct PassKey {
@@ -124,7 +134,7 @@ impl PassPipelines {
         };
         let defs = key.tonemapping.map(tonemapping_defs).unwrap_or_default();
         let id = cache.queue_render_pipeline(RenderPipelineDescriptor {
-            label: Some(if pass == Pass::Ground { "horizon_ground" } else { "horizon_sky" }.into()),
+            label: Some(pass.label().into()),
             layout: vec![self.layout(pass, ldr, multisampled).clone()],
             vertex: VertexState {
                 shader: shader.clone(),

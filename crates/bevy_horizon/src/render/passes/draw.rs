@@ -1,0 +1,66 @@
+//! The passes as Bevy's schedule runs them, once for each view: a triangle over the viewport.
+
+use bevy::camera::{MainPassResolutionOverride, Viewport};
+use bevy::ecs::query::QueryData;
+use bevy::prelude::*;
+use bevy::render::camera::ExtractedCamera;
+use bevy::render::diagnostic::RecordDiagnostics;
+use bevy::render::render_resource::{PipelineCache, RenderPassDescriptor, StoreOp};
+use bevy::render::renderer::{RenderContext, ViewQuery};
+use bevy::render::view::{ViewDepthTexture, ViewTarget, ViewUniformOffset};
+
+use super::super::view::ViewGround;
+use super::{Pass, ViewPasses};
+
+/// What both passes need of a view.
+#[derive(QueryData)]
+pub struct DrawnView {
+    camera: &'static ExtractedCamera,
+    target: &'static ViewTarget,
+    depth: &'static ViewDepthTexture,
+    passes: &'static ViewPasses,
+    ground: &'static ViewGround,
+    offset: &'static ViewUniformOffset,
+    resolution: Option<&'static MainPassResolutionOverride>,
+}
+
+/// The ground, before Bevy's opaque meshes: one ray a pixel; colour and depth.
+pub fn draw_ground(view: ViewQuery<DrawnView>, pipelines: Res<PipelineCache>, ctx: RenderContext) {
+    draw(Pass::Ground, &view.into_inner(), &pipelines, ctx);
+}
+
+/// The air, after Bevy's opaque meshes: sky where nothing was drawn, haze over what was. One fragment a sample, so that
+/// the edges of meshes keep their antialiasing.
+pub fn draw_sky(view: ViewQuery<DrawnView>, pipelines: Res<PipelineCache>, ctx: RenderContext) {
+    draw(Pass::Sky, &view.into_inner(), &pipelines, ctx);
+}
+
+fn draw(pass: Pass, view: &DrawnViewItem, pipelines: &PipelineCache, mut ctx: RenderContext) {
+    let (Some(id), Some(group)) = (view.passes.pipelines[pass as usize], &view.passes.groups[pass as usize]) else {
+        return;
+    };
+    let Some(pipeline) = pipelines.get_render_pipeline(id) else { return };
+    let diagnostics = ctx.diagnostic_recorder();
+    let diagnostics = diagnostics.as_deref();
+    let mut render_pass = ctx.begin_tracked_render_pass(RenderPassDescriptor {
+        label: Some(pass.label()),
+        color_attachments: &[Some(view.target.get_color_attachment())],
+        // The air reads the depth, and so can't have it attached.
+        depth_stencil_attachment: (pass == Pass::Ground).then(|| view.depth.get_attachment(StoreOp::Store)),
+        timestamp_writes: None,
+        occlusion_query_set: None,
+        multiview_mask: None,
+    });
+    let span = diagnostics.pass_span(&mut render_pass, pass.label());
+    if let Some(viewport) = Viewport::from_viewport_and_override(view.camera.viewport.as_ref(), view.resolution) {
+        render_pass.set_camera_viewport(&viewport);
+    }
+    let [own, sky] = view.ground.offsets;
+    let mut offsets = vec![own];
+    offsets.extend((pass == Pass::Sky).then_some(sky));
+    offsets.extend(view.passes.ldr.then_some(view.offset.offset));
+    render_pass.set_render_pipeline(pipeline);
+    render_pass.set_bind_group(0, group, &offsets);
+    render_pass.draw(0..3, 0..1);
+    span.end(&mut render_pass);
+}
