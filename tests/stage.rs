@@ -8,6 +8,7 @@ use bevy::core_pipeline::Core3d;
 use bevy::core_pipeline::schedule::Core3dSystems;
 use bevy::core_pipeline::tonemapping::Tonemapping;
 use bevy::prelude::*;
+use bevy::render::RenderApp;
 use bevy::render::extract_component::{ExtractComponent, ExtractComponentPlugin};
 use bevy::render::render_resource::{
     Buffer, BufferDescriptor, BufferUsages, Extent3d, MapMode, Origin3d, PollType, TexelCopyBufferInfo,
@@ -15,7 +16,6 @@ use bevy::render::render_resource::{
 };
 use bevy::render::renderer::{RenderContext, RenderDevice, ViewQuery};
 use bevy::render::view::ViewDepthTexture;
-use bevy::render::{Render, RenderApp, RenderSystems};
 use bevy_horizon::prelude::*;
 use bevy_horizon::render::ready::Progress;
 use bevy_horizon_workspace::offscreen::{self, Offscreen};
@@ -40,8 +40,7 @@ impl Plugin for KeepDepthPlugin {
         app.insert_resource(kept.clone()).add_plugins(ExtractComponentPlugin::<KeepDepth>::default());
         app.sub_app_mut(RenderApp)
             .insert_resource(kept)
-            .add_systems(Core3d, keep_depth.after(Core3dSystems::MainPass).before(Core3dSystems::EarlyPostProcess))
-            .add_systems(Render, (|| ()).in_set(RenderSystems::Cleanup));
+            .add_systems(Core3d, keep_depth.after(Core3dSystems::MainPass).before(Core3dSystems::EarlyPostProcess));
     }
 }
 

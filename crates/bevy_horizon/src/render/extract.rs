@@ -12,7 +12,7 @@ use horizon_field::Place;
 
 use super::kernel::TerrainKernel;
 use super::passes::ViewPasses;
-use super::uniforms::{MaterialUniform, SkyUniform};
+use super::uniforms::SkyUniform;
 use super::view::ViewGround;
 use crate::camera::HorizonCamera;
 use crate::world::{Atmosphere, CompiledTerrain, TerrainFields, WorldOrigin};
@@ -44,7 +44,6 @@ pub struct ExtractedTerrain {
     pub entity: Entity,
     pub fields: Arc<TerrainFields>,
     pub kernel: TerrainKernel,
-    pub material: MaterialUniform,
     pub translation: Vec3,
     pub layers: RenderLayers,
 }
@@ -100,7 +99,6 @@ pub fn extract_world(
                 entity,
                 fields: compiled.0.clone(),
                 kernel: kernel.clone(),
-                material: MaterialUniform::new(&compiled.0.material),
                 translation: transform.translation(),
                 layers: layers.cloned().unwrap_or_default(),
             });

@@ -118,7 +118,6 @@ impl FrameJobs {
         work: &Work,
         clipmap: &Clipmap,
         fields: &TerrainFields,
-        material: &MaterialUniform,
         sun: Option<SunUniform>,
         device: &RenderDevice,
     ) -> Self {
@@ -148,7 +147,7 @@ impl FrameJobs {
             let buffers = [
                 storage("horizon_fill_anchors", &anchors),
                 storage("horizon_fill_jobs", bytemuck::cast_slice(&fills)),
-                uniform("horizon_material", material, device),
+                uniform("horizon_material", &MaterialUniform::new(&fields.material), device),
             ];
             jobs.fill = Some((fills.len() as u32, buffers, [None, None]));
         }

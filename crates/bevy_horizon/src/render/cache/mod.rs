@@ -22,7 +22,7 @@ pub(crate) use self::pipelines::CachePipelines;
 use super::extract::{ExtractedHorizonCamera, ExtractedTerrain, ExtractedWorld};
 use super::passes::ViewPasses;
 use super::ready::Progress;
-use super::uniforms::{MaterialUniform, SunUniform};
+use super::uniforms::SunUniform;
 use super::view::ViewGround;
 use crate::world::TerrainFields;
 use std::sync::Arc;
@@ -63,7 +63,6 @@ pub(crate) struct Cache {
     /// What the tiles are filled with, once the pipeline for it is ready.
     fields: Arc<TerrainFields>,
     structure: u64,
-    material: MaterialUniform,
     sun: Option<(Vec3, f32)>,
     pub buffers: CacheBuffers,
     pub drawn: Vec<DrawnLevel>,
@@ -164,7 +163,6 @@ impl Cache {
             range: [demand.finest, demand.coarsest],
             fields: terrain.fields.clone(),
             structure: terrain.kernel.structure,
-            material: terrain.material.clone(),
             sun: None,
             buffers: CacheBuffers::new(demand.side, demand.capacity, &terrain.fields, device),
             drawn: Vec::new(),
@@ -206,7 +204,6 @@ impl Cache {
         let changed = !Arc::ptr_eq(&self.fields, &terrain.fields);
         if changed && pipelines.ready(pipeline_cache, terrain.kernel.structure) {
             self.fields = terrain.fields.clone();
-            self.material = terrain.material.clone();
             self.structure = terrain.kernel.structure;
             self.buffers.set_fields(&self.fields, device);
             self.clipmap.invalidate();
@@ -216,7 +213,7 @@ impl Cache {
             let budget = world.settings.tiles_per_frame.max(1) as usize;
             let work = self.clipmap.work(budget, sun.is_some());
             self.filled += work.fill.len() as u64;
-            self.jobs = FrameJobs::new(&work, &self.clipmap, &self.fields, &self.material, sun, device);
+            self.jobs = FrameJobs::new(&work, &self.clipmap, &self.fields, sun, device);
         }
         self.drawn = self.clipmap.drawn();
         self.buffers.set_clipmap(&self.drawn, self.clipmap.side(), device, queue);
