@@ -2,3 +2,5 @@
 
 pub mod example;
 pub mod offscreen;
+pub mod stage;
+pub mod views;

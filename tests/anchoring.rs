@@ -5,7 +5,7 @@ use bevy::prelude::*;
 use bevy_horizon::prelude::*;
 use horizon_field::field::{Fractal, NoImages};
 
-use crate::stage::{FOV, NEAR, Stage};
+use bevy_horizon_workspace::stage::{FOV, NEAR, Stage};
 
 const SIZE: [u32; 2] = [160, 90];
 

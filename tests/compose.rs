@@ -4,7 +4,7 @@ use bevy::camera::visibility::RenderLayers;
 use bevy::prelude::*;
 use bevy_horizon::prelude::*;
 
-use crate::stage::Stage;
+use bevy_horizon_workspace::stage::Stage;
 
 const SIZE: [u32; 2] = [320, 180];
 const EYE: Vec3 = Vec3::new(0.0, 260.0, 0.0);

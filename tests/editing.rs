@@ -7,7 +7,7 @@ use bevy_horizon::prelude::*;
 use bevy_horizon::render::cache::Caches;
 use horizon_field::field::{Fractal, Noise};
 
-use crate::stage::Stage;
+use bevy_horizon_workspace::stage::Stage;
 
 fn hills(amplitude: f64) -> Field {
     Field::Fractal(Fractal { wavelength: 3000.0, amplitude, octaves: 10.0, ..default() })

@@ -8,7 +8,7 @@ use bevy::render::renderer::RenderDevice;
 use bevy_horizon::prelude::*;
 use bevy_horizon::render::HorizonSkyPlugin;
 
-use crate::stage::Stage;
+use bevy_horizon_workspace::stage::Stage;
 
 struct NoPlugins;
 
@@ -88,7 +88,7 @@ fn every_pipeline_compiles() {
             stage.light();
             stage.world().spawn((Terrain::default(), Atmosphere::default()));
             let camera = stage.camera;
-            stage.world().entity_mut(camera).insert(msaa).remove::<crate::stage::KeepDepth>();
+            stage.world().entity_mut(camera).insert(msaa).remove::<bevy_horizon_workspace::stage::KeepDepth>();
             if !hdr {
                 stage.world().entity_mut(camera).remove::<bevy::camera::Hdr>();
             }
@@ -130,7 +130,7 @@ fn several_cameras_and_viewports_each_show_the_world() {
         Msaa::Off,
         bevy::camera::Exposure { ev100: 13.5 },
         bevy::core_pipeline::tonemapping::Tonemapping::AgX,
-        Projection::Perspective(PerspectiveProjection { fov: crate::stage::FOV, ..default() }),
+        Projection::Perspective(PerspectiveProjection { fov: bevy_horizon_workspace::stage::FOV, ..default() }),
         HorizonCamera::default(),
         look,
     ));

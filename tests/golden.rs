@@ -10,7 +10,7 @@ use bevy_horizon::scene::WorldLoaded;
 use flip_rs::{DEFAULT_PPD, RgbImage as FlipImage, ldr_flip};
 use image::RgbaImage;
 
-use crate::stage::Stage;
+use bevy_horizon_workspace::stage::Stage;
 
 /// The largest mean FLIP error that passes: below what a viewer notices, above what drivers differ by.
 const TOLERANCE: f32 = 0.02;

@@ -11,5 +11,4 @@ mod parity;
 mod queries;
 mod shaders;
 mod stability;
-mod stage;
 mod worlds;

@@ -8,7 +8,7 @@ use horizon_field::field::{Clamp, Fractal, NoImages, Noise, Remap};
 use horizon_field::march::{Anchored, Cast, Counts, Ray, Surface, Tolerance, cast};
 use horizon_field::{Compiled, real::Jet};
 
-use crate::stage::{NEAR, Stage};
+use bevy_horizon_workspace::stage::{NEAR, Stage};
 
 fn fbm(octaves: f64) -> Compiled<2> {
     let fractal = Fractal { wavelength: 400.0, amplitude: 100.0, octaves, seed: 4, ..default() };

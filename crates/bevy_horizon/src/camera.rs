@@ -15,13 +15,30 @@ pub struct HorizonCamera {
     /// How far the world is drawn, in metres. Default: 60 000.
     #[reflect(@Param { min: 1.0, max: 1e6, unit: "m", help: "How far the world is drawn" })]
     pub far: f32,
+    /// How large the ground is drawn, as a part of the view's width and height; then it is brought to full size with edges
+    /// kept. 0.25 to 1. Default: 1.
+    #[reflect(@Param { min: 0.25, max: 1.0, unit: "", help: "How large the ground is drawn before it is scaled up" })]
+    pub render_scale: f32,
     /// What is shown in place of the picture. Default: the picture.
     pub debug: DebugView,
 }
 
+impl HorizonCamera {
+    /// For slow devices: half the resolution, two pixels of error.
+    pub const LOW: Self = Self { error_budget: 2.0, render_scale: 0.5, ..Self::HIGH };
+    /// Between low and high: three quarters of the resolution, one pixel of error.
+    pub const MEDIUM: Self = Self { error_budget: 1.0, render_scale: 0.75, ..Self::HIGH };
+    /// The default: every pixel, half a pixel of error.
+    pub const HIGH: Self =
+        Self { error_budget: 0.5, far: 60_000.0, render_scale: 1.0, debug: DebugView::None };
+    /// For pictures: a quarter of a pixel of error. It is worth more device memory than the default, see
+    /// [`CacheSettings`](crate::render::cache::CacheSettings).
+    pub const ULTRA: Self = Self { error_budget: 0.25, ..Self::HIGH };
+}
+
 impl Default for HorizonCamera {
     fn default() -> Self {
-        Self { error_budget: 0.5, far: 60_000.0, debug: default() }
+        Self::HIGH
     }
 }
 
@@ -34,7 +51,7 @@ pub enum DebugView {
     None,
     /// The ground's normal.
     Normal,
-    /// Turns of the march's loop: red is 96 and more.
+    /// Turns of the march's loop: red is 64 and more.
     Steps,
     /// The level of the clipmap, finest in blue.
     Level,
@@ -44,4 +61,11 @@ pub enum DebugView {
     Albedo,
     /// Distance, logarithmic.
     Distance,
+    /// Heights and bounds that a ray loads: red is 96 and more.
+    Loads,
+    /// How far the drawn depth is from the truth, in pixels: red is 1 and more. The truth is computed on the CPU while the
+    /// camera stands still; what is not yet known is grey, and pixels that miss, or invent, ground are magenta.
+    Error,
+    /// For programs: turns in red, loads in green, as numbers.
+    Work,
 }

@@ -3,7 +3,7 @@
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use horizon_field::field::Anchors;
-use horizon_field::march::{Anchored, Cast, Counts, Ray, Tolerance, cast};
+use horizon_field::march::{Anchored, Cast, Ray};
 use horizon_field::{CELL, Compiled, Place};
 
 use crate::world::{CompiledTerrain, WorldOrigin};
@@ -83,7 +83,7 @@ impl HorizonQuery<'_, '_> {
 
     /// The ground's heights at many positions; empty without a terrain.
     pub fn heights(&self, positions: &[Vec3]) -> Vec<f32> {
-        self.ground(None).map_or_else(Vec::new, |ground| positions.iter().map(|p| ground.height(*p)).collect())
+        self.ground(None).map_or_else(Vec::new, |ground| ground.heights(positions))
     }
 
     /// The ground's unit normal at a position; `None` without a terrain.
@@ -119,6 +119,14 @@ impl Ground<'_> {
         (self.compiled.value_f64(&self.anchors, self.local(position), 0.0) - self.datum) as f32
     }
 
+    /// The ground's heights at many positions, in Bevy's coordinates: those of [`Ground::height`], several times as fast.
+    pub fn heights(&self, positions: &[Vec3]) -> Vec<f32> {
+        let q: Vec<_> = positions.iter().map(|p| self.local(*p)).collect();
+        let mut values = vec![0.0; q.len()];
+        self.compiled.values_f64(&self.anchors, &q, 0.0, &mut values);
+        values.into_iter().map(|v| (v - self.datum) as f32).collect()
+    }
+
     /// The ground's unit normal at a position.
     pub fn normal(&self, position: Vec3) -> Vec3 {
         let [x, z] = self.compiled.jet_f64(&self.anchors, self.local(position), 0.0).g;
@@ -137,7 +145,7 @@ impl Ground<'_> {
         let ray = Ray::new([x, f64::from(origin.y) + self.datum, z], direction.to_array().map(f64::from)).ok()?;
         let surface = Anchored::new(self.compiled, &self.anchor);
         let max_distance = f64::from(max_distance);
-        match cast(&surface, &ray, max_distance, Tolerance::default(), &mut Counts::default()) {
+        match surface.cast(&ray, max_distance) {
             Cast::Hit(hit) => Some(GroundHit {
                 entity: self.entity,
                 distance: hit.t as f32,

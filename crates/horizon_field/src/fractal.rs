@@ -190,6 +190,47 @@ pub fn fade<T: Real>(wavelength: T, cutoff: T) -> T {
     (wavelength / cutoff.max(T::of(1e-20)) - T::ONE).clamp(T::ZERO, T::ONE)
 }
 
+/// A value alone: what [`Jet`] does to its value, bit for bit.
+impl<T: Real> Algebra for T {
+    type Scalar = T;
+    #[inline(always)]
+    fn constant(v: T) -> Self {
+        v
+    }
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        self + other
+    }
+    #[inline(always)]
+    fn times(self, other: Self) -> Self {
+        self * other
+    }
+    #[inline(always)]
+    fn scaled(self, by: T) -> Self {
+        self * by
+    }
+    #[inline(always)]
+    fn shifted(self, by: T) -> Self {
+        self + by
+    }
+    #[inline(always)]
+    fn squared(self) -> Self {
+        self * self
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        if self < T::ZERO { self * -T::ONE } else { self }
+    }
+    #[inline(always)]
+    fn at_most(self, limit: T) -> Self {
+        if self < limit { self } else { limit }
+    }
+    #[inline(always)]
+    fn at_least(self, limit: T) -> Self {
+        if self > limit { self } else { limit }
+    }
+}
+
 impl<T: Real, const D: usize> Algebra for Jet<T, D> {
     type Scalar = T;
     #[inline(always)]
@@ -321,7 +362,8 @@ mod tests {
             let state = rule.step(rule.start(0.8), n, 1.0, 0.8, 1.0);
             assert_eq!(rule.step(state, n, 0.5, 0.8, 0.0), state);
             let near = rule.step(state, n, 0.5, 0.8, 1e-9);
-            assert!((near.result.v - state.result.v).abs() < 1e-8);
+            let moved: f64 = near.result.v - state.result.v;
+            assert!(moved.abs() < 1e-8);
         }
         assert_eq!([fade(10.0, 0.0), fade(10.0, 5.0), fade(10.0, 8.0), fade(10.0, 10.0)], [1.0, 1.0, 0.25, 0.0]);
     }

@@ -18,7 +18,19 @@ pub const fn pcg(v: u32) -> u32 {
 /// The hash of one coordinate of a cell, under a seed. Axes differ by the seed: see [`axis_seed`].
 #[inline(always)]
 pub const fn axis(coordinate: i64, seed: u32) -> u32 {
-    pcg((coordinate as u32).wrapping_add(pcg(((coordinate >> 32) as u32).wrapping_add(seed))))
+    axis_low(coordinate as u32, axis_high((coordinate >> 32) as u32, seed))
+}
+
+/// The first half of [`axis`]: what neighbours share, unless the low word wraps between them.
+#[inline(always)]
+pub const fn axis_high(high: u32, seed: u32) -> u32 {
+    pcg(high.wrapping_add(seed))
+}
+
+/// The second half of [`axis`]: the hash of a coordinate's low word, after its high word's [`axis_high`].
+#[inline(always)]
+pub const fn axis_low(low: u32, high: u32) -> u32 {
+    pcg(low.wrapping_add(high))
 }
 
 /// The seed of axis 0, 1 or 2: different odd multiples, so that (a, b) and (b, a) differ.

@@ -2,8 +2,9 @@
 //! cell and a fraction before any rounding. Coordinates are Q64.64 fixed point and wrap, so a lattice has no edge, and
 //! the noise at 10⁹ m is as exact as at the origin. `lattice.wgsl` is the twin: it adds small local offsets.
 
+use crate::hash::axis_seed;
 use crate::place::{CELL, Place};
-use crate::real::Real;
+use crate::real::{Real, axes};
 
 /// The WGSL twin.
 pub const WGSL: &str = include_str!("lattice.wgsl");
@@ -19,6 +20,8 @@ pub struct Layer<const D: usize> {
     offset: [i128; D],
     /// The seed of the cells' hashes.
     pub seed: u32,
+    /// The seeds of the axes, which follow from it.
+    pub(crate) axis_seeds: [u32; D],
 }
 
 /// A point of a lattice: a 64-bit cell and the fraction in it, in `[0, 1)`.
@@ -44,7 +47,13 @@ fn fixed(x: f64) -> i128 {
 impl<const D: usize> Layer<D> {
     /// A lattice with `matrix` units per metre, whose coordinate at the world's origin is `offset`.
     pub fn new(matrix: [[f64; D]; D], offset: [f64; D], seed: u32) -> Self {
-        Self { matrix, cell_matrix: matrix.map(|row| row.map(|m| fixed(m * CELL))), offset: offset.map(fixed), seed }
+        Self {
+            matrix,
+            cell_matrix: matrix.map(|row| row.map(|m| fixed(m * CELL))),
+            offset: offset.map(fixed),
+            seed,
+            axis_seeds: core::array::from_fn(|k| axis_seed(seed, k as u32)),
+        }
     }
 
     /// The lattice point at a place of the world.
@@ -74,21 +83,28 @@ impl<const D: usize> Layer<D> {
         let mut cell = [0; D];
         let mut fraction = [T::ZERO; D];
         for row in 0..D {
-            let mut x = T::of(anchor.fraction[row]);
-            for (m, q) in self.matrix[row].iter().zip(q) {
-                x += T::of(*m) * q;
-            }
-            let whole = x.floor();
+            let [whole, rest] = self.parts(anchor, q, row);
             cell[row] = anchor.cell[row].wrapping_add(whole.to_i64());
-            fraction[row] = x - whole;
+            fraction[row] = rest;
         }
         LatticePoint { cell, fraction }
+    }
+
+    /// One coordinate of [`Layer::at`]: whole cells from the anchor's cell, and the fraction.
+    #[inline(always)]
+    pub(crate) fn parts<T: Real>(&self, anchor: &LatticePoint<f64, D>, q: [T; D], row: usize) -> [T; 2] {
+        let mut x = T::of(anchor.fraction[row]);
+        for (m, q) in self.matrix[row].iter().zip(q) {
+            x += T::of(*m) * q;
+        }
+        let whole = x.floor();
+        [whole, x - whole]
     }
 
     /// Brings a gradient per lattice unit into a gradient per metre.
     #[inline(always)]
     pub fn per_metre<T: Real>(&self, g: [T; D]) -> [T; D] {
-        core::array::from_fn(|column| {
+        axes(|column| {
             let mut sum = T::ZERO;
             for (row, g) in self.matrix.iter().zip(g) {
                 sum += T::of(row[column]) * g;

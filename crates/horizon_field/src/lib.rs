@@ -7,6 +7,8 @@ pub mod fractal;
 pub mod hash;
 pub mod lattice;
 pub mod march;
+#[cfg(feature = "baselines")]
+pub mod methods;
 pub mod metrics;
 pub mod noise;
 pub mod place;

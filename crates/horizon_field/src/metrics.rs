@@ -55,6 +55,8 @@ pub struct Report {
     pub stray: usize,
     /// Height difference error |y − H| in metres, over all pixels that show ground.
     pub hde: Spread,
+    /// The same in footprints.
+    pub hde_pixels: Spread,
     /// Distance to the surface along its normal, |y − H| / √(1 + |∇H|²), in footprints, over the same pixels.
     pub surface: Spread,
     /// Intersection distance error |t − t_truth| in metres, over pixels outside silhouettes that are ground in both.
@@ -73,13 +75,14 @@ impl Report {
         assert_eq!(depth.len(), truth.pixels.len(), "the pictures differ in size");
         let camera = &truth.camera;
         let mut report = Self { pixels: depth.len(), ..Self::default() };
-        let (mut hde, mut normal, mut ide, mut ide_pixels) = (vec![], vec![], vec![], vec![]);
+        let [mut hde, mut hde_pixels, mut normal, mut ide, mut ide_pixels] = [const { Vec::new() }; 5];
         for (i, (pixel, &depth)) in truth.pixels.iter().zip(depth).enumerate() {
             if let Some(t) = depth {
                 let [x, y, z] = camera.pixel_ray(i).at(t);
                 let ground = surface.jet([x, z]);
                 let off = (y - ground.v).abs();
                 hde.push(off);
+                hde_pixels.push(off / camera.footprint(t));
                 let slope = ground.g[0] * ground.g[0] + ground.g[1] * ground.g[1];
                 normal.push(off / (1.0 + slope).sqrt() / camera.footprint(t));
             }
@@ -106,6 +109,7 @@ impl Report {
             }
         }
         report.hde = Spread::of(hde);
+        report.hde_pixels = Spread::of(hde_pixels);
         report.surface = Spread::of(normal);
         report.ide = Spread::of(ide);
         report.ide_pixels = Spread::of(ide_pixels);

@@ -97,6 +97,18 @@ macro_rules! real {
 real!(f32);
 real!(f64);
 
+/// `f` of each axis, as a plain loop: [`core::array::from_fn`] keeps loops around it from becoming vector instructions.
+#[inline(always)]
+pub(crate) fn axes<X: Copy + Default, const D: usize>(f: impl Fn(usize) -> X) -> [X; D] {
+    let mut all = [X::default(); D];
+    let mut k = 0;
+    while k < D {
+        all[k] = f(k);
+        k += 1;
+    }
+    all
+}
+
 /// A value and its gradient, at a point of `D` dimensions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jet<T, const D: usize> {

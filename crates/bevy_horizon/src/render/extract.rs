@@ -11,7 +11,7 @@ use bevy::render::sync_world::RenderEntity;
 use horizon_field::Place;
 
 use super::kernel::TerrainKernel;
-use super::passes::ViewPasses;
+use super::passes::{ViewClearance, ViewPasses};
 use super::uniforms::SkyUniform;
 use super::view::ViewGround;
 use crate::camera::HorizonCamera;
@@ -64,10 +64,12 @@ pub struct ExtractedHorizonCamera {
     pub layers: RenderLayers,
     /// Luminance of the ambient light, in cd/m².
     pub ambient: Vec3,
+    /// Whether its ground is drawn from a cache.
+    pub cached: bool,
 }
 
 impl SyncComponent for HorizonCamera {
-    type Target = (ExtractedHorizonCamera, ViewGround, ViewPasses);
+    type Target = (ExtractedHorizonCamera, ViewGround, ViewPasses, ViewClearance);
 }
 
 type Terrains<'w, 's> = Query<
@@ -159,6 +161,7 @@ pub fn extract_cameras(
             camera: camera.clone(),
             layers: layers.cloned().unwrap_or_default(),
             ambient,
+            cached: true,
         });
     }
 }

@@ -6,7 +6,10 @@ pub(crate) mod extract;
 mod kernel;
 pub(crate) mod passes;
 pub mod ready;
+#[cfg(feature = "baselines")]
+pub mod rivals;
 mod shaders;
+mod truth;
 mod uniforms;
 mod view;
 
@@ -39,6 +42,7 @@ impl Plugin for HorizonRenderPlugin {
             .init_resource::<kernel::Kernels>()
             .add_plugins(SyncComponentPlugin::<HorizonCamera>::default())
             .add_systems(PostUpdate, kernel::write_kernels.after(HorizonSystems::Compile))
+            .add_systems(PostUpdate, truth::seek_truths.after(TransformSystems::Propagate).after(HorizonSystems::Compile))
             .add_systems(PreUpdate, ready::report);
         shaders::add_shaders(&mut app.world_mut().resource_mut());
         let progress = ready::Progress::default();
@@ -52,8 +56,9 @@ impl Plugin for HorizonRenderPlugin {
             .init_resource::<cache::Caches>()
             .init_resource::<cache::CachePipelines>()
             .init_resource::<passes::PassPipelines>()
+            .init_resource::<passes::ClearancePipeline>()
             .init_resource::<view::HorizonViews>()
-            .add_systems(ExtractSchedule, (extract::extract_world, extract::extract_cameras))
+            .add_systems(ExtractSchedule, (extract::extract_world, extract::extract_cameras, truth::extract_truths))
             .add_systems(
                 Render,
                 (

@@ -1,6 +1,6 @@
 //! What the shaders see: one struct each, laid out by `ShaderType`.
 
-use bevy::math::{IVec2, Mat4, Vec2, Vec3, Vec4};
+use bevy::math::{IVec2, Mat4, UVec3, Vec2, Vec3, Vec4};
 use bevy::render::render_resource::ShaderType;
 
 use super::cache::clipmap::{DrawnLevel, MAX_LEVELS};
@@ -134,6 +134,9 @@ pub struct HorizonViewUniform {
     pub debug: u32,
     pub pixel: f32,
     pub orthographic: u32,
+    pub slopes: Vec2,
+    pub columns: UVec3,
+    pub rings: Vec2,
 }
 
 /// `Sky` of `sky.wgsl`.

@@ -4,12 +4,13 @@ use bevy::camera::MainPassResolutionOverride;
 use bevy::math::Vec4Swizzles;
 use bevy::prelude::*;
 use bevy::render::camera::{ExtractedCamera, TemporalJitter};
-use bevy::render::render_resource::DynamicUniformBuffer;
+use bevy::render::render_resource::{DynamicUniformBuffer, PipelineCache};
 use bevy::render::renderer::{RenderDevice, RenderQueue};
 use bevy::render::view::ExtractedView;
 use horizon_field::Place;
 
 use super::cache::{Caches, pixel_size};
+use super::passes::{ClearancePipeline, Table};
 use super::extract::{ExtractedHorizonCamera, ExtractedWorld};
 use super::uniforms::{HorizonViewUniform, SkyUniform};
 
@@ -22,8 +23,14 @@ pub struct ViewGround {
     pub eye: Place,
     /// The sky over it.
     pub sky: Option<SkyUniform>,
-    /// The offsets of its uniforms: the view's, the sky's.
-    pub offsets: [u32; 2],
+    /// Radians per pixel, or metres per pixel where orthographic.
+    pub pixel: f32,
+    /// What its clearance table holds, if it has one: perspective views of a terrain do.
+    pub table: Option<Table>,
+    /// The size at which the ground is drawn, if it is not the view's own.
+    pub scaled: Option<UVec2>,
+    /// The offsets of its uniforms: the view's, the sky's, and the view's at the lower resolution.
+    pub offsets: [u32; 3],
 }
 
 /// The views' uniforms; no buffer before a view draws a world.
@@ -50,6 +57,8 @@ pub fn prepare_views(
     mut uniforms: ResMut<HorizonViews>,
     world: Res<ExtractedWorld>,
     caches: Res<Caches>,
+    clearances: Res<ClearancePipeline>,
+    pipelines: Res<PipelineCache>,
     device: Res<RenderDevice>,
     queue: Res<RenderQueue>,
     mut views: Views,
@@ -67,8 +76,18 @@ pub fn prepare_views(
         let eye = ground.cache.map_or(Vec3::new(0.0, y as f32, 0.0), |cache| caches.0[cache].eye(&ground.eye));
         let rotation = Mat3::from_quat(view.world_from_view.rotation());
         let sun = world.risen_sun().map(|(sun, _)| sun);
-        ground.offsets[0] = uniforms.views.push(&HorizonViewUniform {
-            view_from_clip: clip_from_view.inverse(),
+        let view_from_clip = clip_from_view.inverse();
+        let orthographic = clip_from_view.w_axis.w == 1.0;
+        let pixel = pixel_size(view, size.y);
+        ground.pixel = pixel;
+        let cache = ground.cache.filter(|_| !orthographic && clearances.ready(&pipelines));
+        ground.table = cache.map(|cache| {
+            let ray = |ndc: Vec2| rotation * view_from_clip.project_point3(ndc.extend(1.0));
+            Table::new(ray, pixel, caches.0[cache].reach(camera.camera.far))
+        });
+        let table = ground.table.unwrap_or_default();
+        let uniform = HorizonViewUniform {
+            view_from_clip,
             clip_from_view,
             right: rotation.x_axis,
             up: rotation.y_axis,
@@ -81,9 +100,20 @@ pub fn prepare_views(
             far: camera.camera.far,
             ambient: camera.ambient,
             debug: camera.camera.debug as u32,
-            pixel: pixel_size(view, size.y),
-            orthographic: u32::from(clip_from_view.w_axis.w == 1.0),
-        });
+            pixel,
+            orthographic: u32::from(orthographic),
+            slopes: table.slopes,
+            columns: table.columns,
+            rings: table.rings,
+        };
+        ground.offsets[0] = uniforms.views.push(&uniform);
+        // `clamp` keeps NaN, `max` and `min` take their limit in its place.
+        let scale = camera.camera.render_scale.max(0.25).min(1.0);
+        ground.scaled = (scale < 1.0).then(|| (size.as_vec2() * scale).ceil().as_uvec2());
+        if let Some(size) = ground.scaled {
+            let viewport = Vec4::new(0.0, 0.0, size.x as f32, size.y as f32);
+            ground.offsets[2] = uniforms.views.push(&HorizonViewUniform { viewport, ..uniform });
+        }
         if let Some(sky) = ground.sky.clone() {
             ground.offsets[1] = uniforms.skies.push(&sky);
         }

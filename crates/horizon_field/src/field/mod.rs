@@ -2,7 +2,8 @@
 //!
 //! Data flows through the files in this order: [`nodes`] (parameters) → [`check`] (refusal) → [`compile`] (lattices,
 //! numbers, images) → [`eval`] (value and gradient), [`bound`] and [`spread`] (what is proven of a region, and of all),
-//! [`kernel`] (the shader). `walk` is the one recursion over the compiled tree, which the evaluators share.
+//! [`kernel`] (the shader). `walk` is the one recursion over the compiled tree, which the evaluators share; `query` and
+//! `batch` are those that make one value, and many of them, fast.
 
 #[cfg(feature = "reflect")]
 use bevy_reflect::std_traits::ReflectDefault;
@@ -20,10 +21,13 @@ pub mod nodes;
 pub mod param;
 pub mod spread;
 
+mod batch;
 mod curve;
 mod layers;
 mod model;
+mod query;
 mod ranges;
+mod sample;
 mod tree;
 mod walk;
 

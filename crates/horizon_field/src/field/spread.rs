@@ -7,6 +7,9 @@ use super::walk::{Evaluator, Function, walk};
 use crate::fractal::{Algebra, State, fade};
 use crate::noise::BasisBounds;
 
+#[cfg(feature = "baselines")]
+mod octaves;
+
 /// Bounds of a function over its whole domain.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Everywhere {

@@ -1,8 +1,10 @@
 //! What the march can be cast against: a height field that can bound itself.
 
+use super::{Cast, Counts, Ray, Tolerance};
 use crate::field::{Anchors, Bound, Compiled};
 use crate::place::Place;
 use crate::real::Jet;
+use crate::truth::{TruthCamera, TruthPicture};
 
 /// A height field y = h(x, z) that can bound itself over a box.
 pub trait Surface {
@@ -36,6 +38,16 @@ impl<'a> Anchored<'a> {
     /// The field around `place`.
     pub fn new(compiled: &'a Compiled<2>, place: &Place) -> Self {
         Self { compiled, anchors: compiled.anchor(place) }
+    }
+
+    /// [`cast`](super::cast) with the usual tolerance, compiled in this crate.
+    pub fn cast(&self, ray: &Ray, t_max: f64) -> Cast {
+        super::cast(self, ray, t_max, Tolerance::default(), &mut Counts::default())
+    }
+
+    /// [`TruthPicture::compute`], compiled in this crate.
+    pub fn picture(&self, camera: TruthCamera, far: f64, threads: usize) -> TruthPicture {
+        TruthPicture::compute(self, camera, far, threads)
     }
 }
 

@@ -1,16 +1,6 @@
-//! What the bases share: the hashes of a cell's corners, what a hash gives, and the quintic fade.
+//! What the bases share: what a corner's hash gives, and the quintic fade.
 
-use crate::hash::{axis, axis_seed};
-use crate::real::Real;
-
-/// The hashes of each axis at the cell's two ends; corners mix them.
-#[inline(always)]
-pub(super) fn ends<const D: usize>(cell: [i64; D], seed: u32) -> [[u32; 2]; D] {
-    core::array::from_fn(|k| {
-        let seed = axis_seed(seed, k as u32);
-        [axis(cell[k], seed), axis(cell[k].wrapping_add(1), seed)]
-    })
-}
+use crate::real::{Real, axes};
 
 /// A number in [−1, 1), from the hash's top 24 bits: exact in f32.
 #[inline(always)]
@@ -47,5 +37,5 @@ pub(super) fn quintic<T: Real>(t: T) -> (T, T) {
 /// From `a` to `b`, linearly.
 #[inline(always)]
 pub(super) fn mix<T: Real, const N: usize>(a: [T; N], b: [T; N], t: T) -> [T; N] {
-    core::array::from_fn(|k| a[k] + t * (b[k] - a[k]))
+    axes(|k| a[k] + t * (b[k] - a[k]))
 }

@@ -1,10 +1,10 @@
 //! Gradient noise after Perlin, *Improving Noise* (2002): a random linear function at each lattice point, interpolated
 //! by the quintic. `gradient.wgsl` is the twin.
 
+use super::axes::Axes;
 use super::bounds::BasisBounds;
-use super::corner::{ends, mix, quintic, vector2, vector3};
+use super::corner::{mix, quintic, vector2, vector3};
 use crate::hash::{mix2, mix3};
-use crate::lattice::LatticePoint;
 use crate::real::{Jet, Real};
 
 /// n = Σ_c W_c (g_c · d_c), with |g_ck| ≤ 1. Range: |n| ≤ Σ_c W_c Σ_k |d_ck|. Along one axis Σ W |d| =
@@ -20,11 +20,11 @@ const SPACE_SCALE: f64 = 2.0 / 3.0;
 
 /// The noise in the plane.
 #[inline(always)]
-pub(super) fn plane<T: Real>(at: &LatticePoint<T, 2>, seed: u32) -> Jet<T, 2> {
-    let [[x0, x1], [y0, y1]] = ends(at.cell, seed);
-    let [x, y] = at.fraction;
+pub(super) fn plane<T: Real>(cell: &impl Axes<2>, fraction: [T; 2]) -> Jet<T, 2> {
+    let [[x0, x1], [y0, y1]] = cell.ends();
+    let [x, y] = fraction;
     let (rx, ry) = (x - T::ONE, y - T::ONE);
-    let [u, v] = at.fraction.map(quintic);
+    let [u, v] = [quintic(x), quintic(y)];
     let row = blend(linear2(mix2(x0, y0), [x, y]), linear2(mix2(x1, y0), [rx, y]), u, 1);
     let next = blend(linear2(mix2(x0, y1), [x, ry]), linear2(mix2(x1, y1), [rx, ry]), u, 1);
     let [value, gx, gy] = blend(row, next, v, 2);
@@ -33,19 +33,19 @@ pub(super) fn plane<T: Real>(at: &LatticePoint<T, 2>, seed: u32) -> Jet<T, 2> {
 
 /// The noise in space.
 #[inline(always)]
-pub(super) fn space<T: Real>(at: &LatticePoint<T, 3>, seed: u32) -> Jet<T, 3> {
-    let [[x0, x1], [y0, y1], [z0, z1]] = ends(at.cell, seed);
-    let [x, y, z] = at.fraction;
+pub(super) fn space<T: Real>(cell: &impl Axes<3>, fraction: [T; 3]) -> Jet<T, 3> {
+    let [[x0, x1], [y0, y1], [z0, z1]] = cell.ends();
+    let [x, y, z] = fraction;
     let (rx, ry, rz) = (x - T::ONE, y - T::ONE, z - T::ONE);
-    let [u, v, w] = at.fraction.map(quintic);
+    let [u, v, w] = [quintic(x), quintic(y), quintic(z)];
     let layer = |hz: u32, z: T| {
         let row = blend(linear3(mix3(x0, y0, hz), [x, y, z]), linear3(mix3(x1, y0, hz), [rx, y, z]), u, 1);
         let next = blend(linear3(mix3(x0, y1, hz), [x, ry, z]), linear3(mix3(x1, y1, hz), [rx, ry, z]), u, 1);
         blend(row, next, v, 2)
     };
     let scale = T::of(SPACE_SCALE);
-    let [value, gx, gy, gz] = blend(layer(z0, z), layer(z1, rz), w, 3).map(|x| x * scale);
-    Jet { v: value, g: [gx, gy, gz] }
+    let [value, gx, gy, gz] = blend(layer(z0, z), layer(z1, rz), w, 3);
+    Jet { v: value * scale, g: [gx * scale, gy * scale, gz * scale] }
 }
 
 /// A corner's linear function at the distance `d`: its value, then its gradient.

@@ -2,9 +2,11 @@
 //! bounds, and its WGSL twin beside it. All are generic over `f32` and `f64`, and use the same order of operations as
 //! the twin. Nothing here is periodic, and no coordinate is absolute: see [`crate::lattice`].
 
+mod axes;
 mod bounds;
 mod corner;
 mod gradient;
+mod lanes;
 mod simplex;
 mod value;
 mod worley;
@@ -15,9 +17,13 @@ mod tests;
 use serde::{Deserialize, Serialize};
 
 pub use bounds::BasisBounds;
+pub(crate) use lanes::{HighWords, Lanes, high_hashes};
 
+use axes::{Axes, Cell};
+
+use crate::hash::axis_seed;
 use crate::lattice::LatticePoint;
-use crate::real::{Jet, Real};
+use crate::real::{Jet, Real, axes};
 
 /// A noise of one octave, with values in [−1, 1] and features of about one lattice unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -54,23 +60,35 @@ impl Basis {
     /// `D` is 2 or 3.
     #[inline]
     pub fn jet<T: Real, const D: usize>(self, at: &LatticePoint<T, D>, seed: u32) -> Jet<T, D> {
+        self.of_seeds(at, core::array::from_fn(|k| axis_seed(seed, k as u32)))
+    }
+
+    /// [`Basis::jet`], of a layer's [`axis_seeds`](crate::lattice::Layer::axis_seeds).
+    #[inline(always)]
+    pub(crate) fn of_seeds<T: Real, const D: usize>(self, at: &LatticePoint<T, D>, seeds: [u32; D]) -> Jet<T, D> {
+        self.of_axes(&Cell { cell: at.cell, seeds }, at.fraction)
+    }
+
+    /// The noise itself. Who takes the value alone pays for the value alone: inlining removes the gradient.
+    #[inline(always)]
+    fn of_axes<T: Real, const D: usize>(self, cell: &impl Axes<D>, fraction: [T; D]) -> Jet<T, D> {
         const { assert!(D == 2 || D == 3) }
         // One of the two branches is left after monomorphisation; copying element-wise is what lets both compile.
         if D == 2 {
-            let at = resized(at);
+            let (cell, fraction) = (&Resized(cell), resized(fraction));
             widened(match self {
-                Self::Value => value::plane(&at, seed),
-                Self::Gradient => gradient::plane(&at, seed),
-                Self::Simplex => simplex::plane(&at, seed),
-                Self::Worley => worley::plane(&at, seed),
+                Self::Value => value::plane(cell, fraction),
+                Self::Gradient => gradient::plane(cell, fraction),
+                Self::Simplex => simplex::plane(cell, fraction),
+                Self::Worley => worley::plane(cell, fraction),
             })
         } else {
-            let at = resized(at);
+            let (cell, fraction) = (&Resized(cell), resized(fraction));
             widened(match self {
-                Self::Value => value::space(&at, seed),
-                Self::Gradient => gradient::space(&at, seed),
-                Self::Simplex => simplex::space(&at, seed),
-                Self::Worley => worley::space(&at, seed),
+                Self::Value => value::space(cell, fraction),
+                Self::Gradient => gradient::space(cell, fraction),
+                Self::Simplex => simplex::space(cell, fraction),
+                Self::Worley => worley::space(cell, fraction),
             })
         }
     }
@@ -104,17 +122,24 @@ impl Basis {
     }
 }
 
-/// The same point, in a type of as many dimensions.
+/// The same coordinates, in a type of as many dimensions.
 #[inline(always)]
-fn resized<T: Real, const D: usize, const E: usize>(at: &LatticePoint<T, D>) -> LatticePoint<T, E> {
-    LatticePoint {
-        cell: core::array::from_fn(|k| at.cell[k.min(D - 1)]),
-        fraction: core::array::from_fn(|k| at.fraction[k.min(D - 1)]),
+fn resized<T: Real, const D: usize, const E: usize>(x: [T; D]) -> [T; E] {
+    axes(|k| x[k.min(D - 1)])
+}
+
+/// The same axes, in a type of as many dimensions.
+struct Resized<'a, A, const D: usize>(&'a A);
+
+impl<A: Axes<D>, const D: usize, const E: usize> Axes<E> for Resized<'_, A, D> {
+    #[inline(always)]
+    fn hash(&self, k: usize, i: i32) -> u32 {
+        self.0.hash(k.min(D - 1), i)
     }
 }
 
 /// The same jet, in a type of as many dimensions.
 #[inline(always)]
 fn widened<T: Real, const D: usize, const E: usize>(jet: Jet<T, D>) -> Jet<T, E> {
-    Jet { v: jet.v, g: core::array::from_fn(|k| jet.g[k.min(D - 1)]) }
+    Jet { v: jet.v, g: axes(|k| jet.g[k.min(D - 1)]) }
 }

@@ -239,3 +239,27 @@ suite! {
     worley2: Worley, 2;
     worley3: Worley, 3;
 }
+
+/// Near cells' hashes are those of the cells, wherever low words wrap or change their sign.
+#[test]
+fn near_cells_hash_like_any_cell() {
+    use super::axes::{Axes, Cell, NearCell, Words};
+    let mut random = Random(8);
+    for anchor in
+        [0, -1, 1, 1 << 31, -(1 << 31), 1 << 32, -(1 << 32), (1 << 32) - 7, i64::MAX, i64::MIN, 0x1234_5678_9abc]
+    {
+        for _ in 0..400 {
+            let (seed, by) = (random.word(), i64::from(random.word() as i32 >> (random.word() & 31)));
+            let words = Words::of(anchor);
+            let low = i64::from(words.low) + by;
+            if low <= i64::from(i32::MIN) || low >= i64::from(i32::MAX) {
+                continue;
+            }
+            let near = NearCell { low: [low as u32], high: [words.hashes(seed)] };
+            let any = Cell { cell: [anchor.wrapping_add(by)], seeds: [seed] };
+            for i in [-1, 0, 1] {
+                assert_eq!(near.hash(0, i), any.hash(0, i), "{anchor} {by} {i}");
+            }
+        }
+    }
+}

@@ -1,9 +1,9 @@
 //! Value noise: random values at lattice points, interpolated by the quintic. `value.wgsl` is the twin.
 
+use super::axes::Axes;
 use super::bounds::BasisBounds;
-use super::corner::{ends, mix, quintic, signed};
+use super::corner::{mix, quintic, signed};
 use crate::hash::{mix2, mix3};
-use crate::lattice::LatticePoint;
 use crate::real::{Jet, Real};
 
 /// n = Σ h_c W_c, where |h_c| ≤ 1 and the W_c ≥ 0 sum to 1: within [−1, 1].
@@ -16,9 +16,9 @@ pub(super) const SPACE: BasisBounds = BasisBounds::unit(3.79, 14.21);
 
 /// The noise in the plane.
 #[inline(always)]
-pub(super) fn plane<T: Real>(at: &LatticePoint<T, 2>, seed: u32) -> Jet<T, 2> {
-    let [[x0, x1], [y0, y1]] = ends(at.cell, seed);
-    let [u, (v, dv)] = at.fraction.map(quintic);
+pub(super) fn plane<T: Real>(cell: &impl Axes<2>, fraction: [T; 2]) -> Jet<T, 2> {
+    let [[x0, x1], [y0, y1]] = cell.ends();
+    let [u, (v, dv)] = [quintic(fraction[0]), quintic(fraction[1])];
     let row = edge(signed(mix2(x0, y0)), signed(mix2(x1, y0)), u);
     let next = edge(signed(mix2(x0, y1)), signed(mix2(x1, y1)), u);
     let [value, gx] = mix(row, next, v);
@@ -27,9 +27,9 @@ pub(super) fn plane<T: Real>(at: &LatticePoint<T, 2>, seed: u32) -> Jet<T, 2> {
 
 /// The noise in space.
 #[inline(always)]
-pub(super) fn space<T: Real>(at: &LatticePoint<T, 3>, seed: u32) -> Jet<T, 3> {
-    let [[x0, x1], [y0, y1], [z0, z1]] = ends(at.cell, seed);
-    let [u, (v, dv), (w, dw)] = at.fraction.map(quintic);
+pub(super) fn space<T: Real>(cell: &impl Axes<3>, fraction: [T; 3]) -> Jet<T, 3> {
+    let [[x0, x1], [y0, y1], [z0, z1]] = cell.ends();
+    let [u, (v, dv), (w, dw)] = [quintic(fraction[0]), quintic(fraction[1]), quintic(fraction[2])];
     // Each layer as (value, ∂x, ∂y).
     let layer = |z: u32| {
         let row = edge(signed(mix3(x0, y0, z)), signed(mix3(x1, y0, z)), u);

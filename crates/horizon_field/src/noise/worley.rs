@@ -8,11 +8,11 @@
 //! (t_k + j/2)² − max(0, t_k − j/2)² ≤ j for j ≤ 1, and (2 − t_1 − j/2)² − (t_1 + j/2)² = 4(1 − t_1 − j/2) ≥ 2(1 − j).
 //! So (D − 1)j ≤ 2(1 − j) suffices: j = 2/(D + 1).
 
+use super::axes::Axes;
 use super::bounds::BasisBounds;
 use super::corner::{vector2, vector3};
-use crate::hash::{axis, axis_seed, mix2, mix3};
-use crate::lattice::LatticePoint;
-use crate::real::{Jet, Real};
+use crate::hash::{mix2, mix3};
+use crate::real::{Jet, Real, axes};
 
 /// The value is 2 F₁ / max F₁ − 1. F₁ ≤ √D (½ + j/2) by the own cell's point, and has slope 1, so the slope is
 /// 2 / max F₁, exactly. The gradient jumps between cells and at feature points.
@@ -32,12 +32,12 @@ const SPACE_REACH: f64 = 0.25;
 
 /// The noise in the plane.
 #[inline(always)]
-pub(super) fn plane<T: Real>(at: &LatticePoint<T, 2>, seed: u32) -> Jet<T, 2> {
-    let [hx, hy] = neighbours(at.cell, seed);
+pub(super) fn plane<T: Real>(cell: &impl Axes<2>, fraction: [T; 2]) -> Jet<T, 2> {
+    let [hx, hy] = neighbours(cell);
     let mut nearest = Nearest::none();
     for (j, hy) in hy.into_iter().enumerate() {
         for (i, hx) in hx.into_iter().enumerate() {
-            nearest.offer(at.fraction, [i, j], vector2(mix2(hx, hy)), T::of(PLANE_REACH));
+            nearest.offer(fraction, [i, j], vector2(mix2(hx, hy)), T::of(PLANE_REACH));
         }
     }
     nearest.jet(T::of(PLANE_SLOPE))
@@ -45,13 +45,13 @@ pub(super) fn plane<T: Real>(at: &LatticePoint<T, 2>, seed: u32) -> Jet<T, 2> {
 
 /// The noise in space.
 #[inline(always)]
-pub(super) fn space<T: Real>(at: &LatticePoint<T, 3>, seed: u32) -> Jet<T, 3> {
-    let [hx, hy, hz] = neighbours(at.cell, seed);
+pub(super) fn space<T: Real>(cell: &impl Axes<3>, fraction: [T; 3]) -> Jet<T, 3> {
+    let [hx, hy, hz] = neighbours(cell);
     let mut nearest = Nearest::none();
     for (k, hz) in hz.into_iter().enumerate() {
         for (j, hy) in hy.into_iter().enumerate() {
             for (i, hx) in hx.into_iter().enumerate() {
-                nearest.offer(at.fraction, [i, j, k], vector3(mix3(hx, hy, hz)), T::of(SPACE_REACH));
+                nearest.offer(fraction, [i, j, k], vector3(mix3(hx, hy, hz)), T::of(SPACE_REACH));
             }
         }
     }
@@ -60,11 +60,8 @@ pub(super) fn space<T: Real>(at: &LatticePoint<T, 3>, seed: u32) -> Jet<T, 3> {
 
 /// The hashes of each axis at the cell before, the cell and the cell after.
 #[inline(always)]
-fn neighbours<const D: usize>(cell: [i64; D], seed: u32) -> [[u32; 3]; D] {
-    core::array::from_fn(|k| {
-        let seed = axis_seed(seed, k as u32);
-        [-1, 0, 1].map(|i| axis(cell[k].wrapping_add(i), seed))
-    })
+fn neighbours<const D: usize>(cell: &impl Axes<D>) -> [[u32; 3]; D] {
+    axes(|k| [cell.hash(k, -1), cell.hash(k, 0), cell.hash(k, 1)])
 }
 
 /// The nearest feature point so far.
@@ -85,8 +82,7 @@ impl<T: Real, const D: usize> Nearest<T, D> {
     /// Takes the point of the cell `i` − 1 cells away, if it is nearer.
     #[inline(always)]
     fn offer(&mut self, fraction: [T; D], i: [usize; D], vector: [T; D], reach: T) {
-        let d: [T; D] =
-            core::array::from_fn(|k| fraction[k] - (T::of_u32(i[k] as u32) - T::of(0.5)) - vector[k] * reach);
+        let d: [T; D] = axes(|k| fraction[k] - (T::of_u32(i[k] as u32) - T::of(0.5)) - vector[k] * reach);
         let mut square = d[0] * d[0];
         for d in &d[1..] {
             square += *d * *d;

@@ -1,6 +1,7 @@
 //! The device's side of a cache: its buffers, and a frame's jobs.
 
 use bevy::prelude::*;
+use bevy::render::diagnostic::RecordDiagnostics;
 use bevy::render::render_resource::{
     BindGroup, BindGroupEntries, Buffer, BufferDescriptor, BufferInitDescriptor, BufferUsages, ComputePassDescriptor,
     PipelineCache, ShaderType, UniformBuffer, encase,
@@ -228,24 +229,32 @@ impl FrameJobs {
             return;
         }
         let Some([fill, pyramid, light]) = pipelines.get(cache, structure) else { return };
+        let diagnostics = ctx.diagnostic_recorder();
+        let diagnostics = diagnostics.as_deref();
         let mut pass = ctx
             .command_encoder()
             .begin_compute_pass(&ComputePassDescriptor { label: Some("horizon_cache"), timestamp_writes: None });
         if let Some((count, _, [Some(field), Some(jobs)])) = &self.fill {
+            let span = diagnostics.pass_span(&mut pass, "horizon_fill");
             pass.set_pipeline(fill);
             pass.set_bind_group(0, field, &[]);
             pass.set_bind_group(1, jobs, &[]);
             pass.dispatch_workgroups(8, 8, *count);
+            span.end(&mut pass);
         }
         if let Some((count, _, Some(group))) = &self.pyramid {
+            let span = diagnostics.pass_span(&mut pass, "horizon_pyramid");
             pass.set_pipeline(pyramid);
             pass.set_bind_group(0, group, &[]);
             pass.dispatch_workgroups(*count, 1, 1);
+            span.end(&mut pass);
         }
         if let Some((count, _, Some(group))) = &self.light {
+            let span = diagnostics.pass_span(&mut pass, "horizon_light");
             pass.set_pipeline(light);
             pass.set_bind_group(0, group, &[]);
             pass.dispatch_workgroups(4, 4, *count);
+            span.end(&mut pass);
         }
     }
 }

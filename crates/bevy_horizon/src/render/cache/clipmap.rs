@@ -16,6 +16,8 @@ pub const MAX_LEVELS: usize = 20;
 pub const COARSEST: i32 = 12;
 /// log2 of the finest texel, in metres: 4 mm.
 pub const FINEST: i32 = -8;
+/// Frames within which a jump or an edit is done.
+const FRAMES: usize = 8;
 /// Where a level begins to blend into the next, as a part of its radius.
 const INNER: f32 = 0.8;
 
@@ -101,6 +103,8 @@ pub struct Clipmap {
     levels: Vec<Level>,
     /// Light was made before all the ground that may shadow it was there: it is made again once it is.
     relight: bool,
+    /// The most tiles that were missing or out of date since all was done.
+    backlog: usize,
 }
 
 /// A level as the shader sees it, in texels.
@@ -149,7 +153,7 @@ impl Clipmap {
     /// An empty clipmap of `side` tiles along each side, an even number of at least 4, and at most `capacity` levels.
     pub fn new(side: u32, capacity: usize) -> Self {
         assert!(side >= 4 && side.is_multiple_of(2), "a clipmap has an even number of tiles, at least 4");
-        Self { side: i64::from(side), capacity: capacity.clamp(1, MAX_LEVELS), levels: Vec::new(), relight: false }
+        Self { side: i64::from(side), capacity: capacity.clamp(1, MAX_LEVELS), levels: Vec::new(), relight: false, backlog: 0 }
     }
 
     /// Tiles along a level's side.
@@ -226,10 +230,20 @@ impl Clipmap {
         }
     }
 
-    /// The next work, at most about `budget` tiles filled and as many lit: first what is missing, coarse to fine, each
-    /// level outwards from its centre by whole strips, so that what it holds stays a rectangle; then what is out of date.
+    /// The next work, at most about `budget` tiles filled and as many lit, and more after a jump: what is missing or out of
+    /// date is done within [`FRAMES`] frames. First the middle of every level that has nothing, so that the ground is
+    /// sharp at once where the camera stands; then what else is missing, coarse to fine, each level outwards from its
+    /// centre by whole strips, so that what it holds stays a rectangle; then what is out of date.
     pub fn work(&mut self, budget: usize, lit: bool) -> Work {
         let mut work = Work::default();
+        let (done, total) = self.progress();
+        self.backlog = if done == total { 0 } else { self.backlog.max(total - done) };
+        let budget = budget.max(self.backlog.div_ceil(FRAMES));
+        for i in (0..self.levels.len()).rev() {
+            if self.levels[i].valid.is_empty() {
+                self.grow(i, work.fill.len() + 1, &mut work);
+            }
+        }
         for i in (0..self.levels.len()).rev() {
             self.grow(i, budget, &mut work);
         }

@@ -81,6 +81,6 @@ fn distance(view: &ExtractedView, eye: &Place, fields: &TerrainFields) -> f64 {
     if view.clip_from_view.w_axis.w == 1.0 {
         return 1.0;
     }
-    let ground = fields.height.value(&fields.height.anchor(eye), [0.0, 0.0], 0.0f64);
+    let ground = fields.height.value_f64(&fields.height.anchor(eye), [0.0, 0.0], 0.0);
     (0.5 * (eye.cell[1] as f64 * CELL + eye.offset[1] - ground).abs()).max(1.0)
 }

@@ -1,5 +1,5 @@
 // A ray through the drawn surface: climb and descend the pyramid of maxima (maximum mipmaps, Tevs et al. 2008), find
-// the patch, solve it. Needs surface.wgsl.
+// the patch, solve it. Needs surface.wgsl, and HEAT, which says whether to count.
 
 struct Ray {
     // From the clipmap's centre; y above the datum.
@@ -12,12 +12,15 @@ struct Found {
     t: f32,
     level: u32,
     cell: vec2<i32>,
-    // Loop turns, for the heat map.
+    // Loop turns, and what was loaded of heights and bounds; counted for heat maps alone.
     steps: u32,
+    loads: u32,
 }
 
 const MARCH_STEPS: u32 = 768u;
 const TOP_MIP: u32 = 6u;
+// Where a ray starts close above the ground.
+const START_MIP: u32 = 2u;
 
 // The first root of q0 + q1 s + q2 s² in [0, length]; negative where there is none.
 fn first_root(q0: f32, q1: f32, q2: f32, length: f32) -> f32 {
@@ -77,6 +80,7 @@ struct Walk {
     mip: u32,
     cell: vec2<i32>,
     steps: u32,
+    loads: u32,
     // What depends on the level alone: the level, the ray in its texels, and when the ray enters the next finer one.
     l: Level,
     origin: vec2<f32>,
@@ -142,6 +146,9 @@ fn descend(walk: ptr<function, Walk>, ray: Ray, inverse: vec2<f32>, positive: ve
     while ((*walk).mip > 0u && (*walk).t <= t_far && (*walk).level < clipmap.count && (*walk).steps < MARCH_STEPS) {
         (*walk).steps += 1u;
         let node = node_of(*walk, inverse, positive);
+        if (HEAT) {
+            (*walk).loads += select(1u, 2u, is_blended((*walk).l, node.low, f32(1u << (*walk).mip)));
+        }
         let highest = node_bounds((*walk).l, (*walk).level, (*walk).cell, node.low, (*walk).mip).y;
         let y = ray.origin.y + ray.direction.y * (*walk).t;
         if (min(y, ray.origin.y + ray.direction.y * node.t_exit) > highest) {
@@ -166,8 +173,8 @@ fn leaves_square(ray: Ray, inverse: vec2<f32>, r: f32) -> f32 {
 }
 
 fn march(ray: Ray, t_start: f32, far: f32) -> Found {
-    if (clipmap.count == 0u) {
-        return Found(-1.0, 0u, vec2<i32>(0), 0u);
+    if (clipmap.count == 0u || t_start > far) {
+        return Found(-1.0, 0u, vec2<i32>(0), 0u, 0u);
     }
     let positive = ray.direction.xz >= vec2<f32>(0.0);
     // A direction that is all but level with an axis never crosses that axis' lines.
@@ -177,7 +184,7 @@ fn march(ray: Ray, t_start: f32, far: f32) -> Found {
     let t_far = min(far, leaves_square(ray, inverse, coarsest.outer * coarsest.texel));
     var walk: Walk;
     walk.t = t_start;
-    walk.mip = TOP_MIP;
+    walk.mip = select(TOP_MIP, START_MIP, t_start > 0.0);
     enter_level(&walk, ray, inverse, level_at((ray.origin + ray.direction * t_start).xz));
     while (walk.steps < MARCH_STEPS) {
         descend(&walk, ray, inverse, positive, t_far);
@@ -186,6 +193,9 @@ fn march(ray: Ray, t_start: f32, far: f32) -> Found {
         }
         walk.steps += 1u;
         let node = node_of(walk, inverse, positive);
+        if (HEAT) {
+            walk.loads += select(4u, 8u, is_blended(walk.l, walk.cell, 1.0));
+        }
         let h = corners(walk.l, walk.level, walk.cell);
         let at = walk.origin - vec2<f32>(walk.cell) + walk.d * walk.t;
         let a = h.y - h.x;
@@ -195,9 +205,9 @@ fn march(ray: Ray, t_start: f32, far: f32) -> Found {
         let q1 = ray.direction.y - (a * walk.d.x + b * walk.d.y + c * (at.x * walk.d.y + at.y * walk.d.x));
         let s = first_root(q0, q1, -c * walk.d.x * walk.d.y, node.t_exit - walk.t);
         if (s >= 0.0) {
-            return Found(select(-1.0, walk.t + s, walk.t + s <= t_far), walk.level, walk.cell, walk.steps);
+            return Found(select(-1.0, walk.t + s, walk.t + s <= t_far), walk.level, walk.cell, walk.steps, walk.loads);
         }
         leave(&walk, ray, node, inverse, positive);
     }
-    return Found(-1.0, 0u, vec2<i32>(0), walk.steps);
+    return Found(-1.0, 0u, vec2<i32>(0), walk.steps, walk.loads);
 }

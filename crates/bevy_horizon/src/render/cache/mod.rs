@@ -20,7 +20,7 @@ use self::demand::Demand;
 pub(crate) use self::demand::pixel_size;
 pub(crate) use self::pipelines::CachePipelines;
 use super::extract::{ExtractedHorizonCamera, ExtractedTerrain, ExtractedWorld};
-use super::passes::ViewPasses;
+use super::passes::{ClearancePipeline, ViewClearance, ViewPasses};
 use super::ready::Progress;
 use super::uniforms::SunUniform;
 use super::view::ViewGround;
@@ -72,14 +72,24 @@ pub(crate) struct Cache {
     filled: u64,
 }
 
-type Views<'w, 's> =
-    Query<'w, 's, (Entity, &'static ExtractedHorizonCamera, &'static ExtractedView, &'static ExtractedCamera)>;
+type Views<'w, 's> = Query<
+    'w,
+    's,
+    (
+        Entity,
+        &'static ExtractedHorizonCamera,
+        &'static ExtractedView,
+        &'static ExtractedCamera,
+        Has<ViewClearance>,
+    ),
+>;
 
 /// Finds each view's cache, moves it along, and makes out what is to be filled.
 pub(crate) fn prepare_caches(
     mut commands: Commands,
     mut caches: ResMut<Caches>,
     mut pipelines: ResMut<CachePipelines>,
+    mut clearances: ResMut<ClearancePipeline>,
     world: Res<ExtractedWorld>,
     pipeline_cache: Res<PipelineCache>,
     device: Res<RenderDevice>,
@@ -97,18 +107,24 @@ pub(crate) fn prepare_caches(
     let terrain_of = |camera: &ExtractedHorizonCamera| {
         world.terrains.iter().find(|terrain| camera.layers.intersects(&terrain.layers))
     };
-    let drawing = views.iter().filter(|(_, camera, ..)| terrain_of(camera).is_some()).count();
+    let drawing = views.iter().filter(|(_, camera, ..)| camera.cached && terrain_of(camera).is_some()).count();
     let share = world.settings.memory.clamp(16, 4096) / drawing.max(1) as u32;
-    for (entity, camera, view, extracted) in &views {
+    for (entity, camera, view, extracted, has_clearance) in &views {
         let sky = world.sky(&camera.layers);
         let terrain = terrain_of(camera);
         if terrain.is_none() && sky.is_none() {
-            commands.entity(entity).remove::<(ViewGround, ViewPasses)>();
+            commands.entity(entity).remove::<(ViewGround, ViewPasses, ViewClearance)>();
             continue;
+        }
+        if terrain.is_some() && camera.cached {
+            clearances.queue(&pipeline_cache);
+            if !has_clearance {
+                commands.entity(entity).insert(ViewClearance::new(&device));
+            }
         }
         let terrain_at = terrain.map_or(DVec3::ZERO, |terrain| terrain.translation.as_dvec3());
         let eye = world.origin.translated((view.world_from_view.translation().as_dvec3() - terrain_at).to_array());
-        let cache = terrain.map(|terrain| {
+        let cache = terrain.filter(|_| camera.cached).map(|terrain| {
             let demand = Demand::new(camera, view, extracted, &eye, &terrain.fields, share, &device);
             let index = find_cache(caches, terrain, &eye, &demand).unwrap_or_else(|| {
                 caches.push(Cache::new(terrain, &demand, &device));
@@ -117,7 +133,7 @@ pub(crate) fn prepare_caches(
             caches[index].look(&eye, &demand);
             index
         });
-        commands.entity(entity).insert(ViewGround { cache, eye, sky, offsets: [0; 2] });
+        commands.entity(entity).insert(ViewGround { cache, eye, sky, pixel: 0.0, table: None, scaled: None, offsets: [0; 3] });
     }
     let (mut done, mut total) = (0, 0);
     for cache in caches.iter_mut().filter(|cache| cache.used) {
@@ -189,6 +205,13 @@ impl Cache {
         let [x, _, z] = eye.minus(&self.centre);
         let y = eye.cell[1] as f64 * horizon_field::CELL + eye.offset[1];
         Vec3::new(x as f32, y as f32, z as f32)
+    }
+
+    /// From the finest texels that are drawn out to where the ground ends, at most `far`, in metres.
+    pub fn reach(&self, far: f32) -> [f32; 2] {
+        let mut drawn = self.drawn.iter().filter(|level| level.outer > 0.0).map(|level| (level.exponent as f32).exp2());
+        let near = drawn.next().unwrap_or(1.0);
+        [8.0 * near, far]
     }
 
     fn prepare(

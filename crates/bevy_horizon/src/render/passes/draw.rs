@@ -10,7 +10,7 @@ use bevy::render::renderer::{RenderContext, ViewQuery};
 use bevy::render::view::{ViewDepthTexture, ViewTarget, ViewUniformOffset};
 
 use super::super::view::ViewGround;
-use super::{Pass, ViewPasses};
+use super::{ClearancePipeline, Pass, ViewPasses};
 
 /// What both passes need of a view.
 #[derive(QueryData)]
@@ -24,41 +24,59 @@ pub struct DrawnView {
     resolution: Option<&'static MainPassResolutionOverride>,
 }
 
-/// The ground, before Bevy's opaque meshes: one ray a pixel; colour and depth.
-pub fn draw_ground(view: ViewQuery<DrawnView>, pipelines: Res<PipelineCache>, ctx: RenderContext) {
-    draw(Pass::Ground, &view.into_inner(), &pipelines, ctx);
+/// The ground, before Bevy's opaque meshes: one ray a pixel; colour and depth. At a lower resolution first, where the
+/// camera asks for that.
+pub fn draw_ground(
+    view: ViewQuery<DrawnView>,
+    pipelines: Res<PipelineCache>,
+    clearances: Res<ClearancePipeline>,
+    mut ctx: RenderContext,
+) {
+    let view = view.into_inner();
+    if let (Some(group), Some(table)) = (&view.passes.clearance, &view.ground.table) {
+        clearances.dispatch(group, view.ground.offsets[0], table, &pipelines, &mut ctx);
+    }
+    draw(Pass::Ground, &view, &pipelines, &mut ctx);
+    draw(Pass::Upsample, &view, &pipelines, &mut ctx);
 }
 
 /// The air, after Bevy's opaque meshes: sky where nothing was drawn, haze over what was. One fragment a sample, so that
 /// the edges of meshes keep their antialiasing.
-pub fn draw_sky(view: ViewQuery<DrawnView>, pipelines: Res<PipelineCache>, ctx: RenderContext) {
-    draw(Pass::Sky, &view.into_inner(), &pipelines, ctx);
+pub fn draw_sky(view: ViewQuery<DrawnView>, pipelines: Res<PipelineCache>, mut ctx: RenderContext) {
+    draw(Pass::Sky, &view.into_inner(), &pipelines, &mut ctx);
 }
 
-fn draw(pass: Pass, view: &DrawnViewItem, pipelines: &PipelineCache, mut ctx: RenderContext) {
-    let (Some(id), Some(group)) = (view.passes.pipelines[pass as usize], &view.passes.groups[pass as usize]) else {
+fn draw(pass: Pass, view: &DrawnViewItem, pipelines: &PipelineCache, ctx: &mut RenderContext) {
+    let passes = view.passes;
+    let (Some(id), Some(group)) = (passes.pipelines[pass as usize], &passes.groups[pass as usize]) else {
         return;
     };
     let Some(pipeline) = pipelines.get_render_pipeline(id) else { return };
+    let scaled = passes.scaled.as_ref().filter(|_| pass == Pass::Ground);
     let diagnostics = ctx.diagnostic_recorder();
     let diagnostics = diagnostics.as_deref();
+    // The air reads the depth, and so can't have it attached.
+    let (colour, depth) = match scaled {
+        Some(scaled) => (scaled.colour_attachment(), scaled.depth_attachment()),
+        None => (view.target.get_color_attachment(), view.depth.get_attachment(StoreOp::Store)),
+    };
     let mut render_pass = ctx.begin_tracked_render_pass(RenderPassDescriptor {
         label: Some(pass.label()),
-        color_attachments: &[Some(view.target.get_color_attachment())],
-        // The air reads the depth, and so can't have it attached.
-        depth_stencil_attachment: (pass == Pass::Ground).then(|| view.depth.get_attachment(StoreOp::Store)),
+        color_attachments: &[Some(colour)],
+        depth_stencil_attachment: (pass != Pass::Sky).then_some(depth),
         timestamp_writes: None,
         occlusion_query_set: None,
         multiview_mask: None,
     });
     let span = diagnostics.pass_span(&mut render_pass, pass.label());
-    if let Some(viewport) = Viewport::from_viewport_and_override(view.camera.viewport.as_ref(), view.resolution) {
+    let viewport = Viewport::from_viewport_and_override(view.camera.viewport.as_ref(), view.resolution);
+    if let Some(viewport) = viewport.filter(|_| scaled.is_none()) {
         render_pass.set_camera_viewport(&viewport);
     }
-    let [own, sky] = view.ground.offsets;
-    let mut offsets = vec![own];
+    let [own, sky, low] = view.ground.offsets;
+    let mut offsets = vec![if scaled.is_some() { low } else { own }];
     offsets.extend((pass == Pass::Sky).then_some(sky));
-    offsets.extend(view.passes.ldr.then_some(view.offset.offset));
+    offsets.extend(passes.ldr.then_some(view.offset.offset));
     render_pass.set_render_pipeline(pipeline);
     render_pass.set_bind_group(0, group, &offsets);
     render_pass.draw(0..3, 0..1);

@@ -1,10 +1,12 @@
-// The ground's pass: one ray per pixel through the cache; colour and depth. Needs view.wgsl, surface.wgsl, march.wgsl.
+// The ground's pass: one ray per pixel through the cache; colour and depth. Needs view.wgsl, surface.wgsl, march.wgsl,
+// clear_start.wgsl and heat.wgsl.
 
 @group(0) @binding(1) var<storage, read> heights: array<f32>;
 @group(0) @binding(2) var<storage, read> bounds: array<vec2<f32>>;
 @group(0) @binding(3) var<storage, read> looks: array<vec2<u32>>;
 @group(0) @binding(4) var<storage, read> lights: array<f32>;
 @group(0) @binding(5) var<uniform> view: View;
+@group(0) @binding(6) var<storage, read> clearance: array<f32>;
 
 struct Look {
     normal: vec3<f32>,
@@ -74,20 +76,22 @@ fn shade(look: Look, direction: vec3<f32>) -> vec3<f32> {
     return sun + ambient;
 }
 
-fn heat(x: f32) -> vec3<f32> {
-    let c = clamp(x, 0.0, 1.0);
-    return clamp(vec3<f32>(1.5) - abs(4.0 * c - vec3<f32>(3.0, 2.0, 1.0)), vec3<f32>(0.0), vec3<f32>(1.0));
-}
-
 struct Ground {
     @location(0) colour: vec4<f32>,
     @builtin(frag_depth) depth: f32,
 }
 
-@fragment
-fn ground(@builtin(position) position: vec4<f32>) -> Ground {
-    let ndc = ndc_of(position);
-    let near = view_point(ndc, 1.0);
+// A pixel's ray; where orthographic, its origin is on the near plane.
+struct PixelRay {
+    ray: Ray,
+    // The direction and the origin in the view's own axes.
+    local: vec3<f32>,
+    start: vec3<f32>,
+    t_near: f32,
+}
+
+fn pixel_ray(position: vec4<f32>) -> PixelRay {
+    let near = view_point(ndc_of(position), 1.0);
     var local = normalize(near);
     var start = vec3<f32>(0.0);
     var t_near = length(near);
@@ -96,26 +100,33 @@ fn ground(@builtin(position) position: vec4<f32>) -> Ground {
         start = near;
         t_near = 0.0;
     }
-    let direction = world_direction(local);
-    let ray = Ray(view.eye + world_direction(start), direction);
-    let found = march(ray, t_near, view.far);
+    return PixelRay(Ray(view.eye + world_direction(start), world_direction(local)), local, start, t_near);
+}
+
+fn depth_of(pixel: PixelRay, t: f32) -> f32 {
+    let clip = view.clip_from_view * vec4<f32>(0.0, 0.0, (pixel.start + pixel.local * t).z, 1.0);
+    return clip.z / clip.w;
+}
+
+// The ground in a pixel.
+fn ground_in(pixel: PixelRay, position: vec4<f32>) -> Ground {
+    let direction = pixel.ray.direction;
+    let found = march(pixel.ray, max(pixel.t_near, clear_until(direction)), view.far);
+    if (HEAT && shows_work()) {
+        return Ground(present(vec4<f32>(work_colour(found, position), 1.0)), depth_of(pixel, select(view.far, found.t, found.t >= 0.0)));
+    }
     if (found.t < 0.0) {
         discard;
     }
-    let p = ray.origin + direction * found.t;
-    let look = look_at(found.level, p.xz);
+    let look = look_at(found.level, (pixel.ray.origin + direction * found.t).xz);
     var colour = shade(look, direction) * view.exposure;
-    // Debug views, in the order of `DebugView`.
-    switch view.debug {
-        case 1u: { colour = look.normal * 0.5 + 0.5; }
-        case 2u: { colour = heat(f32(found.steps) / 96.0); }
-        case 3u: { colour = heat(f32(found.level) / 12.0) * (0.4 + 0.6 * max(look.normal.y, 0.0)); }
-        case 4u: { colour = vec3<f32>(look.light); }
-        case 5u: { colour = look.albedo; }
-        case 6u: { colour = heat(log2(1.0 + found.t) / 16.0); }
-        default: {}
+    if (HEAT) {
+        colour = heat_colour(colour, found, look);
     }
-    let z = (start + local * found.t).z;
-    let clip = view.clip_from_view * vec4<f32>(0.0, 0.0, z, 1.0);
-    return Ground(present(vec4<f32>(colour, 1.0)), clip.z / clip.w);
+    return Ground(present(vec4<f32>(colour, 1.0)), depth_of(pixel, found.t));
+}
+
+@fragment
+fn ground(@builtin(position) position: vec4<f32>) -> Ground {
+    return ground_in(pixel_ray(position), position);
 }

@@ -1,8 +1,10 @@
 //! The passes of a view: the ground before Bevy's opaque meshes, so that depth sorts the two; the air after them, over
 //! both.
 
+mod clearance;
 mod draw;
 mod pipelines;
+mod scaled;
 
 use bevy::app::SubApp;
 use bevy::core_pipeline::Core3d;
@@ -14,23 +16,46 @@ use bevy::prelude::*;
 use bevy::render::camera::ExtractedCamera;
 use bevy::render::render_asset::RenderAssets;
 use bevy::render::render_resource::{
-    BindGroup, BindGroupEntry, CachedRenderPipelineId, DynamicBindGroupEntries, PipelineCache, TextureUsages,
+    BindGroup, BindGroupEntry, Buffer, BufferInitDescriptor, BufferUsages, CachedRenderPipelineId, DynamicBindGroupEntries, PipelineCache, TextureUsages,
 };
 use bevy::render::renderer::RenderDevice;
-use bevy::render::texture::{FallbackImage, GpuImage};
+use bevy::render::texture::{FallbackImage, GpuImage, TextureCache};
 use bevy::render::view::{ExtractedView, ViewDepthTexture, ViewUniforms};
 
+pub use self::clearance::{ClearancePipeline, Table, ViewClearance};
 pub use self::pipelines::PassPipelines;
-use self::pipelines::{Pass, PassKey};
+use self::pipelines::{Pass, PassKey, Variant};
+use self::scaled::Scaled;
 use super::cache::Caches;
+use super::extract::ExtractedHorizonCamera;
 use super::view::{HorizonViews, ViewGround};
+use crate::camera::DebugView;
 
 /// A view's passes: pipelines, bind groups and the offsets into them.
 #[derive(Component, Default)]
 pub struct ViewPasses {
     ldr: bool,
-    pipelines: [Option<CachedRenderPipelineId>; 2],
-    groups: [Option<BindGroup>; 2],
+    /// By [`Pass`].
+    pipelines: [Option<CachedRenderPipelineId>; 3],
+    groups: [Option<BindGroup>; 3],
+    clearance: Option<BindGroup>,
+    scaled: Option<Scaled>,
+    heat: bool,
+}
+
+/// The true distance along each pixel's ray, row by row, for the debug view of errors: 0 where it is not known, infinite where
+/// there is no ground.
+#[derive(Component)]
+pub struct ViewTruths(pub Buffer);
+
+impl ViewTruths {
+    fn unknown(device: &RenderDevice) -> Self {
+        Self(device.create_buffer_with_data(&BufferInitDescriptor {
+            label: Some("horizon_no_truths"),
+            contents: &[0; 4],
+            usage: BufferUsages::STORAGE,
+        }))
+    }
 }
 
 /// Adds the ground's pass to the schedule of 3D views.
@@ -49,7 +74,7 @@ pub fn add_sky(render_app: &mut SubApp) {
 }
 
 /// The sky reads the view's depth: its texture must allow it. This is the renderer's copy of the component, not the game's.
-pub fn read_depth(mut views: Query<&mut Camera3d, With<super::extract::ExtractedHorizonCamera>>) {
+pub fn read_depth(mut views: Query<&mut Camera3d, With<ExtractedHorizonCamera>>) {
     for mut camera in &mut views {
         let usages = TextureUsages::from(camera.depth_texture_usages) | TextureUsages::TEXTURE_BINDING;
         camera.depth_texture_usages = usages.into();
@@ -64,6 +89,7 @@ type Views<'w, 's> = Query<
         &'static ViewGround,
         &'static ExtractedView,
         &'static ExtractedCamera,
+        &'static ExtractedHorizonCamera,
         &'static Msaa,
         Option<&'static Tonemapping>,
     ),
@@ -71,22 +97,32 @@ type Views<'w, 's> = Query<
 
 pub fn prepare_pipelines(
     mut commands: Commands,
+    mut textures: ResMut<TextureCache>,
+    device: Res<RenderDevice>,
     mut pipelines: ResMut<PassPipelines>,
     cache: Res<PipelineCache>,
     views: Views,
 ) {
-    for (entity, ground, view, camera, msaa, tonemapping) in &views {
+    for (entity, ground, view, camera, horizon, msaa, tonemapping) in &views {
         let key = PassKey {
             format: view.target_format,
             samples: msaa.samples(),
             tonemapping: tonemapping.copied().filter(|_| !camera.hdr),
+            heat: horizon.camera.debug != DebugView::None,
         };
-        let sky = ground.sky.is_some().then(|| pipelines.get(&cache, Pass::Sky, key));
-        let ground = ground.cache.map(|_| pipelines.get(&cache, Pass::Ground, key));
+        let scaled = ground.cache.and(ground.scaled);
+        let ground_key = PassKey { samples: if scaled.is_some() { 1 } else { key.samples }, ..key };
         commands.entity(entity).insert(ViewPasses {
             ldr: key.tonemapping.is_some(),
-            pipelines: [ground, sky],
-            groups: [None, None],
+            pipelines: [
+                ground.cache.map(|_| pipelines.get(&cache, Pass::Ground, ground_key)),
+                scaled.map(|_| pipelines.get(&cache, Pass::Upsample, key)),
+                ground.sky.is_some().then(|| pipelines.get(&cache, Pass::Sky, key)),
+            ],
+            groups: [None, None, None],
+            clearance: None,
+            scaled: scaled.map(|size| Scaled::new(size, key.format, &mut textures, &device)),
+            heat: key.heat,
         });
     }
 }
@@ -97,6 +133,8 @@ type BindViews<'w, 's> = Query<
     (
         &'static mut ViewPasses,
         &'static ViewGround,
+        Option<&'static ViewClearance>,
+        Option<&'static ViewTruths>,
         &'static ViewDepthTexture,
         Option<&'static Tonemapping>,
         &'static Msaa,
@@ -117,11 +155,12 @@ pub fn prepare_bind_groups(
     uniforms: Res<HorizonViews>,
     caches: Res<Caches>,
     pipelines: Res<PassPipelines>,
+    clearances: Res<ClearancePipeline>,
     pipeline_cache: Res<PipelineCache>,
     device: Res<RenderDevice>,
     tonemappers: Tonemappers,
 ) {
-    for (mut passes, ground, depth, tonemapping, msaa) in &mut views {
+    for (mut passes, ground, clearance, truths, depth, tonemapping, msaa) in &mut views {
         let (Some(view), Some(bevy_view)) = (uniforms.views.binding(), tonemappers.views.uniforms.binding()) else {
             continue;
         };
@@ -132,6 +171,8 @@ pub fn prepare_bind_groups(
             tonemapping.unwrap_or(&Tonemapping::None),
             &tonemappers.fallback,
         );
+        let multisampled = msaa.samples() > 1;
+        let (heat, scaled) = (passes.heat, passes.scaled.is_some());
         let create = |pass: Pass, entries: &[BindGroupEntry]| {
             let mut entries = entries.to_vec();
             if ldr {
@@ -139,29 +180,45 @@ pub fn prepare_bind_groups(
                     DynamicBindGroupEntries::new_with_indices(((10, bevy_view.clone()), (11, lut.0), (12, lut.1)));
                 entries.extend_from_slice(&tonemapping);
             }
-            let layout = pipeline_cache.get_bind_group_layout(pipelines.layout(pass, ldr, msaa.samples() > 1));
+            let multisampled = multisampled && !(scaled && pass == Pass::Ground);
+            let layout = pipeline_cache.get_bind_group_layout(pipelines.layout(pass, Variant { ldr, multisampled, heat }));
             device.create_bind_group("horizon_pass", &layout, &entries)
         };
         if let Some(cache) = ground.cache.and_then(|cache| caches.0.get(cache))
             && let Some(clipmap) = cache.buffers.clipmap.binding()
+            && let Some(clearance) = clearance
         {
             let buffers = &cache.buffers;
-            passes.groups[0] = Some(create(
-                Pass::Ground,
-                &DynamicBindGroupEntries::new_with_indices((
-                    (0, clipmap),
-                    (1, buffers.heights.as_entire_binding()),
-                    (2, buffers.bounds.as_entire_binding()),
-                    (3, buffers.looks.as_entire_binding()),
-                    (4, buffers.lights.as_entire_binding()),
-                    (5, view.clone()),
-                )),
-            ));
+            passes.clearance = clearances.bind(clearance, buffers, &uniforms, &pipeline_cache, &device);
+            let mut entries = DynamicBindGroupEntries::new_with_indices((
+                (0, clipmap),
+                (1, buffers.heights.as_entire_binding()),
+                (2, buffers.bounds.as_entire_binding()),
+                (3, buffers.looks.as_entire_binding()),
+                (4, buffers.lights.as_entire_binding()),
+                (5, view.clone()),
+                (6, clearance.buffer().as_entire_binding()),
+            ))
+            .to_vec();
+            let unknown = heat.then(|| ViewTruths::unknown(&device));
+            if let Some(unknown) = &unknown {
+                let ViewTruths(truths) = truths.unwrap_or(unknown);
+                entries.push(BindGroupEntry { binding: 9, resource: truths.as_entire_binding() });
+            }
+            passes.groups[Pass::Ground as usize] = Some(create(Pass::Ground, &entries));
+            if let Some(scaled) = &passes.scaled {
+                let drawn = DynamicBindGroupEntries::new_with_indices((
+                    (7, &scaled.colour.default_view),
+                    (8, &scaled.depth.default_view),
+                ));
+                entries.extend_from_slice(&drawn);
+                passes.groups[Pass::Upsample as usize] = Some(create(Pass::Upsample, &entries));
+            }
         }
         if ground.sky.is_some()
             && let Some(sky) = uniforms.skies.binding()
         {
-            passes.groups[1] = Some(create(
+            passes.groups[Pass::Sky as usize] = Some(create(
                 Pass::Sky,
                 &DynamicBindGroupEntries::new_with_indices(((0, view), (1, sky), (2, depth.view()))),
             ));

@@ -5,12 +5,13 @@ use bevy::core_pipeline::tonemapping::{Tonemapping, get_lut_bind_group_layout_en
 use bevy::platform::collections::HashMap;
 use bevy::prelude::*;
 use bevy::render::render_resource::binding_types::{
-    storage_buffer_read_only_sized, texture_depth_2d, texture_depth_2d_multisampled, uniform_buffer,
+    storage_buffer_read_only_sized, texture_2d, texture_depth_2d, texture_depth_2d_multisampled, uniform_buffer,
 };
 use bevy::render::render_resource::{
     BindGroupLayoutDescriptor, BlendComponent, BlendFactor, BlendOperation, BlendState, CachedRenderPipelineId,
     ColorTargetState, ColorWrites, CompareFunction, DepthStencilState, DynamicBindGroupLayoutEntries, FragmentState,
-    MultisampleState, PipelineCache, RenderPipelineDescriptor, ShaderStages, TextureFormat, VertexState,
+    MultisampleState, PipelineCache, RenderPipelineDescriptor, ShaderStages, TextureFormat,
+    TextureSampleType, VertexState,
 };
 use bevy::render::view::ViewUniform;
 use bevy::shader::ShaderDefVal;
@@ -21,7 +22,10 @@ use super::super::uniforms::{ClipmapUniform, HorizonViewUniform, SkyUniform};
 /// A pass of a view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Pass {
+    /// The ground, one ray a pixel.
     Ground,
+    /// The ground, from a picture of lower resolution.
+    Upsample,
     Sky,
 }
 
@@ -30,7 +34,17 @@ impl Pass {
     pub const fn label(self) -> &'static str {
         match self {
             Self::Ground => "horizon_ground",
+            Self::Upsample => "horizon_upsample",
             Self::Sky => "horizon_sky",
+        }
+    }
+
+    /// Its fragment shader's entry point.
+    const fn entry(self) -> &'static str {
+        match self {
+            Self::Ground => "ground",
+            Self::Upsample => "upsampled",
+            Self::Sky => "air",
         }
     }
 }
@@ -42,32 +56,49 @@ pub struct PassKey {
     pub samples: u32,
     /// How an LDR view is tonemapped; `None` in HDR.
     pub tonemapping: Option<Tonemapping>,
+    /// Whether the ground's pass is that of a debug view.
+    pub heat: bool,
 }
 
 /// The pipelines that views asked for, and the layouts of what they bind.
 #[derive(Resource)]
 pub struct PassPipelines {
     made: HashMap<(Pass, PassKey), CachedRenderPipelineId>,
-    layouts: HashMap<(Pass, bool, bool), BindGroupLayoutDescriptor>,
+    layouts: HashMap<(Pass, Variant), BindGroupLayoutDescriptor>,
 }
 
 impl Default for PassPipelines {
     fn default() -> Self {
         let mut layouts = HashMap::default();
-        for pass in [Pass::Ground, Pass::Sky] {
-            for (ldr, multisampled) in [(false, false), (false, true), (true, false), (true, true)] {
-                layouts.insert((pass, ldr, multisampled), new_layout(pass, ldr, multisampled));
+        for pass in [Pass::Ground, Pass::Upsample, Pass::Sky] {
+            for bits in 0..8 {
+                let variant = Variant { ldr: bits & 1 != 0, multisampled: bits & 2 != 0, heat: bits & 4 != 0 };
+                layouts.insert((pass, variant), new_layout(pass, variant));
             }
         }
         Self { made: HashMap::default(), layouts }
     }
 }
 
-fn new_layout(pass: Pass, ldr: bool, multisampled: bool) -> BindGroupLayoutDescriptor {
+/// What of a key decides what is bound, and which text the shader has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Variant {
+    pub ldr: bool,
+    pub multisampled: bool,
+    pub heat: bool,
+}
+
+impl PassKey {
+    pub fn variant(&self) -> Variant {
+        Variant { ldr: self.tonemapping.is_some(), multisampled: self.samples > 1, heat: self.heat }
+    }
+}
+
+fn new_layout(pass: Pass, Variant { ldr, multisampled, heat }: Variant) -> BindGroupLayoutDescriptor {
     let view = uniform_buffer::<HorizonViewUniform>(true);
     let read = || storage_buffer_read_only_sized(false, None);
     let mut entries = match pass {
-        Pass::Ground => DynamicBindGroupLayoutEntries::new_with_indices(
+        Pass::Ground | Pass::Upsample => DynamicBindGroupLayoutEntries::new_with_indices(
             ShaderStages::FRAGMENT,
             (
                 (0, uniform_buffer::<ClipmapUniform>(false)),
@@ -76,6 +107,7 @@ fn new_layout(pass: Pass, ldr: bool, multisampled: bool) -> BindGroupLayoutDescr
                 (3, read()),
                 (4, read()),
                 (5, view),
+                (6, read()),
             ),
         ),
         Pass::Sky => DynamicBindGroupLayoutEntries::new_with_indices(
@@ -87,6 +119,13 @@ fn new_layout(pass: Pass, ldr: bool, multisampled: bool) -> BindGroupLayoutDescr
             ),
         ),
     };
+    if pass == Pass::Upsample {
+        let colour = texture_2d(TextureSampleType::Float { filterable: false });
+        entries = entries.extend_with_indices(((7, colour), (8, texture_depth_2d())));
+    }
+    if heat && pass != Pass::Sky {
+        entries = entries.extend_with_indices(((9, read()),));
+    }
     if ldr {
         let [texture, sampler] = get_lut_bind_group_layout_entries();
         entries =
@@ -117,8 +156,8 @@ fn tonemapping_defs(tonemapping: Tonemapping) -> Vec<ShaderDefVal> {
 
 impl PassPipelines {
     /// The layout of what a pass binds.
-    pub fn layout(&self, pass: Pass, ldr: bool, multisampled: bool) -> &BindGroupLayoutDescriptor {
-        &self.layouts[&(pass, ldr, multisampled)]
+    pub fn layout(&self, pass: Pass, variant: Variant) -> &BindGroupLayoutDescriptor {
+        &self.layouts[&(pass, variant)]
     }
 
     /// The pipeline of a pass, asked for once.
@@ -126,23 +165,23 @@ impl PassPipelines {
         if let Some(id) = self.made.get(&(pass, key)) {
             return *id;
         }
-        let ldr = key.tonemapping.is_some();
-        let multisampled = key.samples > 1;
+        let variant = key.variant();
         let shader = match pass {
-            Pass::Ground => shaders::geometry(ldr),
-            Pass::Sky => shaders::sky(ldr, multisampled),
+            Pass::Ground => shaders::geometry(variant.ldr, variant.heat),
+            Pass::Upsample => shaders::upsample(variant.ldr, variant.heat),
+            Pass::Sky => shaders::sky(variant.ldr, variant.multisampled),
         };
         let defs = key.tonemapping.map(tonemapping_defs).unwrap_or_default();
         let id = cache.queue_render_pipeline(RenderPipelineDescriptor {
             label: Some(pass.label().into()),
-            layout: vec![self.layout(pass, ldr, multisampled).clone()],
+            layout: vec![self.layout(pass, variant).clone()],
             vertex: VertexState {
                 shader: shader.clone(),
                 shader_defs: defs.clone(),
                 entry_point: Some("fullscreen".into()),
                 ..default()
             },
-            depth_stencil: (pass == Pass::Ground).then(|| DepthStencilState {
+            depth_stencil: (pass != Pass::Sky).then(|| DepthStencilState {
                 format: CORE_3D_DEPTH_FORMAT,
                 depth_write_enabled: Some(true),
                 depth_compare: Some(CompareFunction::GreaterEqual),
@@ -153,7 +192,7 @@ impl PassPipelines {
             fragment: Some(FragmentState {
                 shader,
                 shader_defs: defs,
-                entry_point: Some(if pass == Pass::Ground { "ground" } else { "air" }.into()),
+                entry_point: Some(pass.entry().into()),
                 targets: vec![Some(ColorTargetState {
                     format: key.format,
                     blend: (pass == Pass::Sky).then_some(OVER),

@@ -22,7 +22,16 @@ struct View {
     // Radians per pixel (metres per pixel where orthographic).
     pixel: f32,
     orthographic: u32,
+    // The clearance table: its least slope (as v = m / (1 + |m|)), and bins per unit of v.
+    slopes: vec2<f32>,
+    // Its first column, how many there are (none: no table), and columns in each quadrant.
+    columns: vec3<u32>,
+    // Its rings: the radius that the first would have, and the binary logarithm of the ratio of two.
+    rings: vec2<f32>,
 }
+
+// Slopes in a column of the clearance table.
+const BINS: u32 = 256u;
 
 @vertex
 fn fullscreen(@builtin(vertex_index) index: u32) -> @builtin(position) vec4<f32> {
