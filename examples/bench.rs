@@ -56,7 +56,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let terrain = world.terrain.unwrap_or_default();
     let ground = terrain.field.compile::<2>(&horizon_field::field::NoImages)?;
     let origin = ground.anchor(&Place::ORIGIN);
-    stage.world().spawn((terrain, Atmosphere::default()));
+    stage.world().spawn(terrain);
+    let sky = stage.world().spawn(Atmosphere::default()).id();
     let camera = stage.camera;
     stage.world().get_mut::<HorizonCamera>(camera).unwrap().error_budget = options.budget;
     let mut at = 0.0f32;
@@ -70,7 +71,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             stage.look(Transform::from_xyz(0.0, y, at).looking_to(Vec3::new(0.2, -0.02, -1.0), Vec3::Y));
             if frames.is_empty() && speed == 0.0 {
                 stage.settle();
-                PASSES.map(|name| stage.spent(name));
+                for name in PASSES {
+                    stage.spent(name);
+                }
             }
             frames.push(stage.frame());
             for (list, name) in passes.iter_mut().zip(PASSES) {
@@ -85,6 +88,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     measure(&mut stage, 0.0);
     measure(&mut stage, options.speed);
+    // What rays cost, counted; without air over it.
+    stage.world().despawn(sky);
+    stage.world().get_mut::<HorizonCamera>(camera).unwrap().debug = DebugView::Work;
+    stage.frame();
+    let picture = stage.colour();
+    let mean = |channel: usize| picture.iter().map(|pixel| f64::from(pixel[channel])).sum::<f64>() / picture.len() as f64;
+    println!("{:.1} turns and {:.1} loads a ray", mean(0), mean(1));
     let info = stage.off.app.sub_app(RenderApp).world().resource::<RenderAdapterInfo>();
     println!("{} ({:?}, {})", info.name, info.backend, info.driver_info);
     Ok(())

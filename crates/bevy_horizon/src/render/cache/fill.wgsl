@@ -23,8 +23,9 @@ fn pack_normal(gradient: vec2<f32>) -> u32 {
 }
 
 @compute @workgroup_size(8, 8, 1)
-fn fill(@builtin(global_invocation_id) id: vec3<u32>) {
-    let job = jobs[id.z];
+fn fill(@builtin(global_invocation_id) id: vec3<u32>, @builtin(workgroup_id) group: vec3<u32>) {
+    // By the group, so that a compiler sees that all of it reads the same layers and anchors.
+    let job = jobs[group.z];
     let q = vec2<f32>(id.xy) * job.texel;
     // An octave is whole down to waves of 1.5 texels, and gone at 0.75: texels lie still in the world, so that what little
     // aliases does not crawl, and thin ridges keep their height for longer.

@@ -115,8 +115,8 @@ fn horizon(start_level: u32, start: vec2<i32>) -> f32 {
 }
 
 @compute @workgroup_size(8, 8, 1)
-fn light(@builtin(global_invocation_id) id: vec3<u32>) {
-    let job = jobs[id.z];
+fn light(@builtin(global_invocation_id) id: vec3<u32>, @builtin(workgroup_id) group: vec3<u32>) {
+    let job = jobs[group.z];
     let cell = job.cell + vec2<i32>(id.xy * 2u);
     let x = (horizon(job.level, cell) - sun.centre) / (sun.high - sun.centre);
     let l = clipmap.levels[job.level];

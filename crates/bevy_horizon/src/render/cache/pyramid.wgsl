@@ -26,7 +26,8 @@ fn pyramid(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id
         var low = 1e30;
         var high = -1e30;
         for (var k = 0; k < 9; k++) {
-            let h = stored_height(l, job.cell + vec2<i32>(node * 2u) + vec2<i32>(k % 3, k / 3));
+            // Past the level's last texel lies the other side of the torus, and no patch.
+            let h = stored_height(l, min(job.cell + vec2<i32>(node * 2u) + vec2<i32>(k % 3, k / 3), l.high - vec2<i32>(1)));
             low = min(low, h);
             high = max(high, h);
         }

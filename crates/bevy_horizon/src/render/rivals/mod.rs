@@ -10,10 +10,10 @@ use bevy::core_pipeline::schedule::Core3dSystems;
 use bevy::pbr::screen_space_reflections;
 use bevy::prelude::*;
 use bevy::render::extract_component::{ExtractComponent, ExtractComponentPlugin};
-use bevy::render::{ExtractSchedule, Render, RenderApp, RenderSystems};
+use bevy::render::{Render, RenderApp, RenderSystems};
 use horizon_field::methods::Method;
 
-use super::extract::{ExtractedHorizonCamera, extract_cameras};
+use super::extract::ExtractedHorizonCamera;
 use super::view;
 
 /// Put it on a camera beside [`HorizonCamera`](crate::HorizonCamera), and its ground is drawn by this method: fixed steps,
@@ -30,7 +30,10 @@ impl Plugin for RivalsPlugin {
         let Some(render_app) = app.get_sub_app_mut(RenderApp) else { return };
         render_app
             .init_resource::<prepare::RivalPipelines>()
-            .add_systems(ExtractSchedule, uncache.after(extract_cameras))
+            .add_systems(
+                Render,
+                uncache.in_set(RenderSystems::PrepareViews),
+            )
             .add_systems(
                 Render,
                 prepare::prepare_rivals.after(view::prepare_views).in_set(RenderSystems::PrepareResources),
