@@ -29,9 +29,28 @@ struct Options {
     /// Metres above the ground.
     #[arg(long, default_value_t = 1.7)]
     above: f32,
-    /// The error budget, in pixels.
-    #[arg(long, default_value_t = 0.5)]
-    budget: f32,
+    /// How well the camera draws.
+    #[arg(long, value_enum, default_value_t = Quality::High)]
+    quality: Quality,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Quality {
+    Low,
+    Medium,
+    High,
+    Ultra,
+}
+
+impl Quality {
+    fn camera(self) -> HorizonCamera {
+        match self {
+            Self::Low => HorizonCamera::LOW,
+            Self::Medium => HorizonCamera::MEDIUM,
+            Self::High => HorizonCamera::HIGH,
+            Self::Ultra => HorizonCamera::ULTRA,
+        }
+    }
 }
 
 fn size(text: &str) -> Result<[u32; 2], String> {
@@ -40,8 +59,15 @@ fn size(text: &str) -> Result<[u32; 2], String> {
 }
 
 /// The passes, by the names of their spans.
-const PASSES: [&str; 6] =
-    ["horizon_fill", "horizon_pyramid", "horizon_light", "horizon_clearance", "horizon_ground", "horizon_sky"];
+const PASSES: [&str; 7] = [
+    "horizon_fill",
+    "horizon_pyramid",
+    "horizon_light",
+    "horizon_clearance",
+    "horizon_ground",
+    "horizon_upsample",
+    "horizon_sky",
+];
 
 fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
@@ -59,7 +85,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     stage.world().spawn(terrain);
     let sky = stage.world().spawn(Atmosphere::default()).id();
     let camera = stage.camera;
-    stage.world().get_mut::<HorizonCamera>(camera).unwrap().error_budget = options.budget;
+    stage.world().entity_mut(camera).insert(options.quality.camera());
     let mut at = 0.0f32;
     let mut measure = |stage: &mut Stage, speed: f32| {
         let mut frames = Vec::new();
@@ -77,12 +103,16 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             }
             frames.push(stage.frame());
             for (list, name) in passes.iter_mut().zip(PASSES) {
-                list.push(stage.spent(name));
+                list.extend(stage.spent(name));
             }
         }
-        println!("{speed} m/s: frame {:.1} ms, {} tiles a frame", median(frames), (tiles(stage) - before) / u64::from(options.frames));
+        println!(
+            "{speed} m/s: frame {:.1} ms, {} tiles a frame",
+            median(frames),
+            (tiles(stage) - before) / u64::from(options.frames)
+        );
         for (name, list) in PASSES.iter().zip(passes) {
-            let mean = list.iter().sum::<f64>() / list.len() as f64;
+            let mean = list.iter().sum::<f64>() / f64::from(options.frames);
             println!("  {name:18} {mean:7.2} ms");
         }
     };
@@ -93,7 +123,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     stage.world().get_mut::<HorizonCamera>(camera).unwrap().debug = DebugView::Work;
     stage.frame();
     let picture = stage.colour();
-    let mean = |channel: usize| picture.iter().map(|pixel| f64::from(pixel[channel])).sum::<f64>() / picture.len() as f64;
+    let mean =
+        |channel: usize| picture.iter().map(|pixel| f64::from(pixel[channel])).sum::<f64>() / picture.len() as f64;
     println!("{:.1} turns and {:.1} loads a ray", mean(0), mean(1));
     let info = stage.off.app.sub_app(RenderApp).world().resource::<RenderAdapterInfo>();
     println!("{} ({:?}, {})", info.name, info.backend, info.driver_info);

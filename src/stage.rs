@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use std::sync::{Arc, Mutex};
 use std::time::Instant;
 
+use crate::offscreen::{self, Offscreen};
 use bevy::app::Plugins;
 use bevy::camera::{Exposure, Hdr};
 use bevy::core_pipeline::Core3d;
@@ -23,7 +24,6 @@ use bevy::render::renderer::{RenderContext, RenderDevice, ViewQuery};
 use bevy::render::view::{ViewDepthTexture, ViewTarget};
 use bevy_horizon::prelude::*;
 use bevy_horizon::render::ready::Progress;
-use crate::offscreen::{self, Offscreen};
 
 /// Vertical field of view of every camera on the stage, in radians.
 pub const FOV: f32 = std::f32::consts::FRAC_PI_3;
@@ -55,11 +55,7 @@ impl Plugin for KeepDepthPlugin {
     }
 }
 
-fn keep(
-    view: ViewQuery<(&ViewDepthTexture, &ViewTarget, &KeepDepth)>,
-    kept: Res<Kept>,
-    mut ctx: RenderContext,
-) {
+fn keep(view: ViewQuery<(&ViewDepthTexture, &ViewTarget, &KeepDepth)>, kept: Res<Kept>, mut ctx: RenderContext) {
     let (depth, target, _) = view.into_inner();
     copy(&depth.texture, TextureAspect::DepthOnly, 4, &kept.depth, &mut ctx);
     if target.main_texture_format() == TextureFormat::Rgba16Float {
@@ -107,7 +103,8 @@ impl Stage {
 
     /// An empty stage with these plugins beside Bevy's, and a camera that draws worlds.
     pub fn with_plugins<M>(plugins: impl Plugins<M>, width: u32, height: u32) -> Self {
-        let mut off = Offscreen::new((offscreen::plugins(), RenderDiagnosticsPlugin, KeepDepthPlugin, plugins), width, height);
+        let mut off =
+            Offscreen::new((offscreen::plugins(), RenderDiagnosticsPlugin, KeepDepthPlugin, plugins), width, height);
         let target = off.target();
         let depth_texture_usages = (TextureUsages::RENDER_ATTACHMENT | TextureUsages::COPY_SRC).into();
         let camera = off.app.world_mut().spawn((
@@ -171,14 +168,16 @@ impl Stage {
         device.poll(PollType::wait_indefinitely()).expect("the device answers");
     }
 
-    /// What the device spent in passes of this name since the last question, in milliseconds. Bevy reads the timestamps
-    /// back some frames later.
-    pub fn spent(&mut self, name: &'static str) -> f64 {
+    /// What the device spent in the pass of this name, in milliseconds, for each frame whose timestamps came back since the
+    /// last question: some frames later.
+    pub fn spent(&mut self, name: &'static str) -> Vec<f64> {
         let path = DiagnosticPath::from_components(["render", name, "elapsed_gpu"]);
         let since = self.asked.get(name).copied();
-        let Some(diagnostic) = self.off.app.world().resource::<DiagnosticsStore>().get(&path) else { return 0.0 };
+        let Some(diagnostic) = self.off.app.world().resource::<DiagnosticsStore>().get(&path) else {
+            return Vec::new();
+        };
         let new = diagnostic.measurements().filter(|one| since.is_none_or(|since| one.time > since));
-        let spent = new.map(|one| one.value).sum();
+        let spent = new.map(|one| one.value).collect();
         if let Some(last) = diagnostic.measurement() {
             self.asked.insert(name, last.time);
         }

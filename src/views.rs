@@ -9,7 +9,14 @@ use horizon_field::{Place, field::FieldError};
 
 /// Alpine ground of so many octaves, usually 13: waves from 6 km down to 1.5 m.
 pub fn mountains(octaves: f64) -> Field {
-    Field::Fractal(Fractal { wavelength: 6000.0, amplitude: 1500.0, octaves, gain: 0.47, seed: 5, ..Fractal::default() })
+    Field::Fractal(Fractal {
+        wavelength: 6000.0,
+        amplitude: 1500.0,
+        octaves,
+        gain: 0.47,
+        seed: 5,
+        ..Fractal::default()
+    })
 }
 
 /// A canyon with pillars some 20 m wide, cut off at the top: thinner than a usual fixed step (5 m + 0.4 % of the distance)

@@ -29,8 +29,7 @@ impl HorizonCamera {
     /// Between low and high: three quarters of the resolution, one pixel of error.
     pub const MEDIUM: Self = Self { error_budget: 1.0, render_scale: 0.75, ..Self::HIGH };
     /// The default: every pixel, half a pixel of error.
-    pub const HIGH: Self =
-        Self { error_budget: 0.5, far: 60_000.0, render_scale: 1.0, debug: DebugView::None };
+    pub const HIGH: Self = Self { error_budget: 0.5, far: 60_000.0, render_scale: 1.0, debug: DebugView::None };
     /// For pictures: a quarter of a pixel of error. It is worth more device memory than the default, see
     /// [`CacheSettings`](crate::render::cache::CacheSettings).
     pub const ULTRA: Self = Self { error_budget: 0.25, ..Self::HIGH };

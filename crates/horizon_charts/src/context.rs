@@ -20,13 +20,15 @@ pub struct Context {
     pub quick: bool,
     /// When the run began, in seconds since 1970: the stamp of its rows.
     pub run: u64,
+    /// How many seeds the cameras drawn by lot have, from 0 on.
+    pub seeds: u32,
 }
 
 impl Context {
     /// A run that begins now and writes into `out`.
     pub fn new(out: impl Into<PathBuf>, quick: bool) -> Self {
         let run = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
-        Self { root: root(), out: out.into(), quick, run }
+        Self { root: root(), out: out.into(), quick, run, seeds: if quick { 5 } else { 200 } }
     }
 
     /// One of two values: of a quick run, or of a whole one.

@@ -26,6 +26,9 @@ struct Arguments {
     /// Discard the rows of an earlier run
     #[arg(long)]
     fresh: bool,
+    /// How many cameras are drawn by lot: the seeds from 0 on; 200 when it is not given
+    #[arg(long, value_name = "N")]
+    seeds: Option<u32>,
     /// Copy what the README shows into `assets/charts`, and bring its figures up to date
     #[arg(long, conflicts_with = "quick")]
     publish: bool,
@@ -44,7 +47,9 @@ fn main() -> ExitCode {
     let own = if arguments.quick { "target/charts/quick" } else { "target/charts" };
     let out = arguments.out.unwrap_or_else(|| root().join(own));
     let options = Options { only: arguments.only, fresh: arguments.fresh, publish: arguments.publish };
-    match run(&Context::new(out, arguments.quick), &all, &options) {
+    let mut ctx = Context::new(out, arguments.quick);
+    ctx.seeds = arguments.seeds.unwrap_or(ctx.seeds);
+    match run(&ctx, &all, &options) {
         Ok(files) => {
             for file in files {
                 println!("{}", file.display());

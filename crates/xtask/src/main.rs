@@ -1,4 +1,4 @@
-//! The project's own commands: `cargo demo`, `cargo verify`, `cargo bless`. They set the machine up first, so that a fresh
+//! The project's own commands: `cargo demo`, `cargo charts`, `cargo verify`, `cargo bless`. They set the machine up first, so that a fresh
 //! one needs Rust, a C linker and git, and nothing else.
 
 mod apt;
@@ -26,6 +26,13 @@ enum Command {
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         options: Vec<OsString>,
     },
+    /// Measures speed against accuracy, and draws it
+    #[command(disable_help_flag = true)]
+    Charts {
+        /// Options of the charts (`--help` lists them)
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        options: Vec<OsString>,
+    },
     /// Runs every check and test
     Verify(verify::Options),
     /// Renders golden images anew and keeps them; look at each before it is committed
@@ -40,6 +47,7 @@ enum Command {
 fn main() -> ExitCode {
     let outcome = match Command::parse() {
         Command::Demo { options } => demo(&options),
+        Command::Charts { options } => charts(&options),
         Command::Verify(options) => return verify::run(&options),
         Command::Bless { names } => setup::run().and_then(|()| suites::bless(&names)),
         Command::Setup => setup::run(),
@@ -51,6 +59,17 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+/// Builds everything, as every command does, and runs the program: built alone it would have Bevy with other features.
+fn charts(options: &[OsString]) -> Result<(), Failure> {
+    setup::run()?;
+    Tool::cargo().args(["build", "--workspace", "--all-targets"]).run()?;
+    let program = run::target().join("debug").join(format!("horizon_charts{}", std::env::consts::EXE_SUFFIX));
+    let tool = Tool::program(program).args(options);
+    // A bar has no room for what each of many apps says as it starts.
+    let tool = if std::env::var_os("RUST_LOG").is_none() { tool.env("RUST_LOG", "error,bevy_log=off") } else { tool };
+    tool.run()
 }
 
 fn demo(options: &[OsString]) -> Result<(), Failure> {

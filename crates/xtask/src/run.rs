@@ -49,7 +49,12 @@ impl Tool {
     /// Cargo, as if called from a shell: what `cargo run` tells the program it runs would otherwise leak into the inner
     /// build, and crates that look at it would be built again.
     pub fn cargo() -> Self {
-        let mut tool = Self::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+        Self::program(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+    }
+
+    /// A program, as if called from a shell.
+    pub fn program(program: impl AsRef<OsStr>) -> Self {
+        let mut tool = Self::new(program);
         for (name, _) in env::vars_os() {
             let leaks = name.to_str().is_some_and(|name| {
                 ["CARGO_PKG_", "CARGO_MANIFEST_", "CARGO_BIN_", "CARGO_CRATE_"].iter().any(|p| name.starts_with(p))
@@ -127,6 +132,11 @@ impl Tool {
         }
         Err(Failure::new(format!("`{}` failed ({status})", self.line()), "look at its messages above"))
     }
+}
+
+/// Where cargo builds.
+pub fn target() -> PathBuf {
+    env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), Into::into)
 }
 
 /// The workspace's root. Cargo tells it at run time, so that a clone that was moved still works.

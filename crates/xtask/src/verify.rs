@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 
-use crate::run::{Failure, Tool, root};
+use crate::run::{Failure, Tool, target};
 use crate::suites::Tally;
 use crate::{examples, readme, setup, suites};
 
@@ -146,8 +146,7 @@ fn without_renderer() -> Result<(), Failure> {
         }
     }
     // In a directory of its own: other features in the common one would build Bevy twice over.
-    let common = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), Into::into);
-    let own = common.join("server");
+    let own = target().join("server");
     Tool::cargo()
         .args(["check", "--package", "bevy_horizon", "--no-default-features", "--target-dir"])
         .args([own])

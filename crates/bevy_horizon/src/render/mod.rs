@@ -42,7 +42,10 @@ impl Plugin for HorizonRenderPlugin {
             .init_resource::<kernel::Kernels>()
             .add_plugins(SyncComponentPlugin::<HorizonCamera>::default())
             .add_systems(PostUpdate, kernel::write_kernels.after(HorizonSystems::Compile))
-            .add_systems(PostUpdate, truth::seek_truths.after(TransformSystems::Propagate).after(HorizonSystems::Compile))
+            .add_systems(
+                PostUpdate,
+                truth::seek_truths.after(TransformSystems::Propagate).after(HorizonSystems::Compile),
+            )
             .add_systems(PreUpdate, ready::report);
         shaders::add_shaders(&mut app.world_mut().resource_mut());
         let progress = ready::Progress::default();

@@ -60,7 +60,14 @@ const STILL: u32 = 3;
 type Cameras<'w, 's> = Query<
     'w,
     's,
-    (Entity, &'static HorizonCamera, &'static Camera, &'static Projection, &'static GlobalTransform, Option<&'static mut Truths>),
+    (
+        Entity,
+        &'static HorizonCamera,
+        &'static Camera,
+        &'static Projection,
+        &'static GlobalTransform,
+        Option<&'static mut Truths>,
+    ),
 >;
 
 /// Starts a truth where a camera with [`DebugView::Error`] came to rest, and drops it where one moved on.

@@ -10,8 +10,8 @@ use bevy::render::view::ExtractedView;
 use horizon_field::Place;
 
 use super::cache::{Caches, pixel_size};
-use super::passes::{ClearancePipeline, Table};
 use super::extract::{ExtractedHorizonCamera, ExtractedWorld};
+use super::passes::{ClearancePipeline, Table};
 use super::uniforms::{HorizonViewUniform, SkyUniform};
 
 /// What a view draws.

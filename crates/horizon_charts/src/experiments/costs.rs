@@ -99,10 +99,10 @@ fn sweeps(ctx: &Context) -> Vec<Point> {
         sweep,
         value,
         view,
-        size: ctx.pick([320, 180], FULL),
+        size: ctx.pick([160, 90], FULL),
         zoom: 1.0,
         step: WALK,
-        frames: ctx.pick(5, 40),
+        frames: ctx.pick(3, 30),
     };
     let mut points = Vec::new();
     for octaves in [1.0, 2.0, 4.0, 8.0, 12.0, 16.0] {
@@ -120,11 +120,15 @@ fn sweeps(ctx: &Context) -> Vec<Point> {
     }
     let low = View { above: 50.0, ..ridge.clone() };
     for speed in [0.0, 10.0, 30.0, 100.0, 300.0] {
-        let frames = ctx.pick(5, if speed == 100.0 { 300 } else { 60 });
+        let frames = ctx.pick(3, if speed == 100.0 { 300 } else { 60 });
         points.push(Point { step: speed / 60.0, frames, ..base("speed, m/s", speed, low.clone()) });
     }
     for zoom in [1.0f32, 2.0, 5.0, 10.0] {
-        points.push(Point { zoom, size: [640, 360], ..base("focal length, times", f64::from(zoom), ridge.clone()) });
+        points.push(Point {
+            zoom,
+            size: ctx.pick([160, 90], [640, 360]),
+            ..base("focal length, times", f64::from(zoom), ridge.clone())
+        });
     }
     points
 }
@@ -183,7 +187,7 @@ impl Experiment for Costs {
                 if !there {
                     table.push(point.row(ctx, None)?)?;
                 }
-                let swept = !point.sweep.starts_with("speed") && !point.sweep.starts_with("focal");
+                let swept = point.sweep == "octaves" || point.sweep == "far, km";
                 if swept && !table.has(&key(point, "fixed step")) {
                     table.push(point.row(ctx, Some(RIVAL))?)?;
                 }

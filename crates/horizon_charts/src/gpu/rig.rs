@@ -94,16 +94,20 @@ impl<'a> Rig<'a> {
         self.spent(&GROUND);
         self.spent(&FILL);
         let before = self.tiles();
-        let (mut ground, mut total, mut fill) = (Vec::new(), Vec::new(), 0.0);
+        let mut ground = GROUND.map(|_| Vec::new());
+        let (mut total, mut fill) = (Vec::new(), 0.0);
         for _ in 0..frames {
             self.go(metres);
             total.push(self.stage.frame());
-            ground.extend(Some(self.spent(&GROUND)).filter(|ms| *ms > 0.0));
+            for (times, name) in ground.iter_mut().zip(GROUND) {
+                times.extend(self.stage.spent(name));
+            }
             fill += self.spent(&FILL);
         }
+        let ground = ground.into_iter().filter(|times| !times.is_empty()).map(median).sum();
         let texels = (self.tiles() - before) as f64 * 4096.0 / frames as f64;
         let worst = total.iter().copied().fold(0.0, f64::max);
-        Cost { ground: median(ground), fill: fill / frames as f64, frame: median(total), worst, texels }
+        Cost { ground, fill: fill / frames as f64, frame: median(total), worst, texels }
     }
 
     /// Another rival draws.
@@ -111,8 +115,10 @@ impl<'a> Rig<'a> {
         let camera = self.stage.camera;
         self.stage.world().entity_mut(camera).insert(RivalMarch(method));
         self.shot.rival = Some(method);
-        // What the pipeline and the first frames cost is not the method's.
-        self.stage.frame();
+        // What the pipeline and the first frames cost is not the method's, nor what the last method's frames did.
+        for _ in 0..2 {
+            self.stage.frame();
+        }
     }
 
     /// The camera is so many metres from where it began, without having been between.
@@ -132,7 +138,7 @@ impl<'a> Rig<'a> {
     }
 
     fn spent(&mut self, passes: &[&'static str]) -> f64 {
-        passes.iter().map(|name| self.stage.spent(name)).sum()
+        passes.iter().flat_map(|name| self.stage.spent(name)).sum()
     }
 
     fn tiles(&self) -> u64 {

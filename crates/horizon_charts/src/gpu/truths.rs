@@ -37,8 +37,7 @@ fn parse(bytes: &[u8], head: &[f64]) -> Option<Vec<TruthPixel>> {
     let numbers: Vec<f64> =
         bytes.chunks_exact(8).map(|bytes| f64::from_le_bytes(bytes.try_into().expect("eight bytes"))).collect();
     let pixels = numbers.strip_prefix(head)?.chunks_exact(NUMBERS);
-    let pixels: Vec<_> =
-        pixels.map(|p| TruthPixel { t: p[0], range: [p[1], p[2]], silhouette: p[3] != 0.0 }).collect();
+    let pixels: Vec<_> = pixels.map(|p| TruthPixel { t: p[0], range: [p[1], p[2]], silhouette: p[3] != 0.0 }).collect();
     let [width, height] = [head[12] as usize, head[13] as usize];
     (pixels.len() == width * height).then_some(pixels)
 }

@@ -32,7 +32,8 @@ use std::sync::Arc;
 pub struct CacheSettings {
     /// Device memory of all caches together, in MiB; 16 to 4096. Default: 128.
     pub memory: u32,
-    /// Tiles of 64 × 64 texels that are filled in one frame, about; at least 1. Default: 192.
+    /// Tiles of 64 × 64 texels that are filled in one frame, about; at least 1. After a jump or an edit there are more, so
+    /// that all is done within eight frames. Default: 192.
     pub tiles_per_frame: u32,
 }
 
@@ -75,13 +76,7 @@ pub(crate) struct Cache {
 type Views<'w, 's> = Query<
     'w,
     's,
-    (
-        Entity,
-        &'static ExtractedHorizonCamera,
-        &'static ExtractedView,
-        &'static ExtractedCamera,
-        Has<ViewClearance>,
-    ),
+    (Entity, &'static ExtractedHorizonCamera, &'static ExtractedView, &'static ExtractedCamera, Has<ViewClearance>),
 >;
 
 /// Finds each view's cache, moves it along, and makes out what is to be filled.
@@ -133,7 +128,15 @@ pub(crate) fn prepare_caches(
             caches[index].look(&eye, &demand);
             index
         });
-        commands.entity(entity).insert(ViewGround { cache, eye, sky, pixel: 0.0, table: None, scaled: None, offsets: [0; 3] });
+        commands.entity(entity).insert(ViewGround {
+            cache,
+            eye,
+            sky,
+            pixel: 0.0,
+            table: None,
+            scaled: None,
+            offsets: [0; 3],
+        });
     }
     let (mut done, mut total) = (0, 0);
     for cache in caches.iter_mut().filter(|cache| cache.used) {

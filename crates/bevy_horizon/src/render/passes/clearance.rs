@@ -61,8 +61,7 @@ impl Table {
         let up = holds(Vec3::Y) && ahead.y > 0.0;
         let down = holds(Vec3::NEG_Y) && ahead.y < 0.0;
         let v = |d: &Vec3| d.y / (d.x.abs().max(d.z.abs()) + d.y.abs()).max(1e-20);
-        let [mut low, mut high] =
-            border.iter().map(v).fold([1.0f32, -1.0], |[low, high], v| [low.min(v), high.max(v)]);
+        let [mut low, mut high] = border.iter().map(v).fold([1.0f32, -1.0], |[low, high], v| [low.min(v), high.max(v)]);
         // A border's highest point may lie between two samples.
         let room = 0.02 * (high - low) + 1e-6;
         low = if down { -1.0 } else { (low - room).max(-1.0) };
@@ -192,7 +191,14 @@ impl ClearancePipeline {
     }
 
     /// Makes a view's table, before its ground is drawn.
-    pub fn dispatch(&self, group: &BindGroup, offset: u32, table: &Table, cache: &PipelineCache, ctx: &mut RenderContext) {
+    pub fn dispatch(
+        &self,
+        group: &BindGroup,
+        offset: u32,
+        table: &Table,
+        cache: &PipelineCache,
+        ctx: &mut RenderContext,
+    ) {
         let Some(pipeline) = self.id.and_then(|id| cache.get_compute_pipeline(id)) else { return };
         let diagnostics = ctx.diagnostic_recorder();
         let diagnostics = diagnostics.as_deref();
@@ -204,5 +210,63 @@ impl ClearancePipeline {
         pass.set_bind_group(0, group, &[offset]);
         pass.dispatch_workgroups(table.columns.y, 1, 1);
         span.end(&mut pass);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Where a ray falls in the table, as `clear_start.wgsl` has it: column and bin, if both are there.
+    fn place(table: &Table, d: Vec3) -> Option<[u32; 2]> {
+        let per_quadrant = table.columns.z;
+        let all = 4 * per_quadrant;
+        let column = ((azimuth(&d) * per_quadrant as f32) as u32 % all + all - table.columns.x) % all;
+        let v = d.y / (d.x.abs().max(d.z.abs()) + d.y.abs());
+        let bin = (v - table.slopes.x) * table.slopes.y;
+        (column < table.columns.y && bin >= 0.0).then(|| [column, (bin as u32).min(BINS - 1)])
+    }
+
+    /// A camera's rays by point of its target.
+    fn rays(pose: Transform, half_height: f32, aspect: f32) -> impl Fn(Vec2) -> Vec3 {
+        move |ndc| pose.rotation * Vec3::new(ndc.x * half_height * aspect, ndc.y * half_height, -1.0)
+    }
+
+    #[test]
+    fn every_pixel_finds_its_column_wherever_a_camera_looks() {
+        for half_height in [0.577, 0.0577, 1.5] {
+            for turn in 0..48 {
+                for tilt in -8..=8 {
+                    for roll in [0.0, 0.7] {
+                        let turn = turn as f32 * 0.1309;
+                        let rotation = Quat::from_euler(EulerRot::YXZ, turn, tilt as f32 * 0.19, roll);
+                        let ray = rays(Transform::from_rotation(rotation), half_height, 16.0 / 9.0);
+                        let table = Table::new(&ray, 2.0 * half_height / 720.0, [0.1, 1e5]);
+                        assert!(table.columns.y <= COLUMNS, "{table:?}");
+                        for i in 0..17 * 17 {
+                            let ndc = Vec2::new((i % 17) as f32, (i / 17) as f32) / 8.5 - 0.94;
+                            let d = ray(ndc);
+                            assert!(
+                                place(&table, d).is_some(),
+                                "turn {turn} tilt {tilt} roll {roll}: {d} in {table:?}"
+                            );
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn columns_are_some_pixels_wide() {
+        let ray = rays(Transform::IDENTITY, 0.577, 16.0 / 9.0);
+        let pixel = 2.0 * 0.577 / 720.0;
+        let table = Table::new(&ray, pixel, [0.1, 1e5]);
+        let columns: std::collections::HashSet<u32> =
+            (0..1280).filter_map(|x| Some(place(&table, ray(Vec2::new(x as f32 / 640.0 - 1.0, 0.1)))?[0])).collect();
+        assert!((200..=400).contains(&columns.len()), "{} columns over 1280 pixels", columns.len());
+        // The last ring begins where the ground ends.
+        let last = table.rings.x * (table.rings.y * (RINGS - 1) as f32).exp2();
+        assert!((last / 1e5 - 1.0).abs() < 1e-3, "{last}");
     }
 }

@@ -16,7 +16,8 @@ use bevy::prelude::*;
 use bevy::render::camera::ExtractedCamera;
 use bevy::render::render_asset::RenderAssets;
 use bevy::render::render_resource::{
-    BindGroup, BindGroupEntry, Buffer, BufferInitDescriptor, BufferUsages, CachedRenderPipelineId, DynamicBindGroupEntries, PipelineCache, TextureUsages,
+    BindGroup, BindGroupEntry, Buffer, BufferInitDescriptor, BufferUsages, CachedRenderPipelineId,
+    DynamicBindGroupEntries, PipelineCache, TextureUsages,
 };
 use bevy::render::renderer::RenderDevice;
 use bevy::render::texture::{FallbackImage, GpuImage, TextureCache};
@@ -117,7 +118,7 @@ pub fn prepare_pipelines(
             pipelines: [
                 ground.cache.map(|_| pipelines.get(&cache, Pass::Ground, ground_key)),
                 scaled.map(|_| pipelines.get(&cache, Pass::Upsample, key)),
-                ground.sky.is_some().then(|| pipelines.get(&cache, Pass::Sky, key)),
+                ground.sky.is_some().then(|| pipelines.get(&cache, Pass::Sky, PassKey { heat: false, ..key })),
             ],
             groups: [None, None, None],
             clearance: None,
@@ -180,8 +181,12 @@ pub fn prepare_bind_groups(
                     DynamicBindGroupEntries::new_with_indices(((10, bevy_view.clone()), (11, lut.0), (12, lut.1)));
                 entries.extend_from_slice(&tonemapping);
             }
-            let multisampled = multisampled && !(scaled && pass == Pass::Ground);
-            let layout = pipeline_cache.get_bind_group_layout(pipelines.layout(pass, Variant { ldr, multisampled, heat }));
+            let variant = Variant {
+                ldr,
+                multisampled: multisampled && !(scaled && pass == Pass::Ground),
+                heat: heat && pass != Pass::Sky,
+            };
+            let layout = pipeline_cache.get_bind_group_layout(pipelines.layout(pass, variant));
             device.create_bind_group("horizon_pass", &layout, &entries)
         };
         if let Some(cache) = ground.cache.and_then(|cache| caches.0.get(cache))

@@ -10,8 +10,8 @@ use bevy::render::render_resource::binding_types::{
 use bevy::render::render_resource::{
     BindGroupLayoutDescriptor, BlendComponent, BlendFactor, BlendOperation, BlendState, CachedRenderPipelineId,
     ColorTargetState, ColorWrites, CompareFunction, DepthStencilState, DynamicBindGroupLayoutEntries, FragmentState,
-    MultisampleState, PipelineCache, RenderPipelineDescriptor, ShaderStages, TextureFormat,
-    TextureSampleType, VertexState,
+    MultisampleState, PipelineCache, RenderPipelineDescriptor, ShaderStages, TextureFormat, TextureSampleType,
+    VertexState,
 };
 use bevy::render::view::ViewUniform;
 use bevy::shader::ShaderDefVal;

@@ -30,10 +30,7 @@ impl Plugin for RivalsPlugin {
         let Some(render_app) = app.get_sub_app_mut(RenderApp) else { return };
         render_app
             .init_resource::<prepare::RivalPipelines>()
-            .add_systems(
-                Render,
-                uncache.in_set(RenderSystems::PrepareViews),
-            )
+            .add_systems(Render, uncache.in_set(RenderSystems::PrepareViews))
             .add_systems(
                 Render,
                 prepare::prepare_rivals.after(view::prepare_views).in_set(RenderSystems::PrepareResources),

@@ -91,15 +91,11 @@ impl RivalPipelines {
             .shaders
             .entry(kernel.structure)
             .or_insert_with(|| {
-                let source = [
-                    &kernel.source,
-                    include_str!("../passes/view.wgsl"),
-                    WGSL,
-                    include_str!("rival.wgsl"),
-                ]
-                .join("\n");
+                let source =
+                    [&kernel.source, include_str!("../passes/view.wgsl"), WGSL, include_str!("rival.wgsl")].join("\n");
                 let path = format!("bevy_horizon/generated/rival_{:016x}.wgsl", kernel.structure);
-                let handle = Handle::Uuid(bevy::asset::uuid::Uuid::from_u64_pair(0x6e3f_0f52, kernel.structure), default());
+                let handle =
+                    Handle::Uuid(bevy::asset::uuid::Uuid::from_u64_pair(0x6e3f_0f52, kernel.structure), default());
                 shaders.push((handle.clone(), Shader::from_wgsl(source, path)));
                 handle
             })
@@ -108,11 +104,7 @@ impl RivalPipelines {
             cache.queue_render_pipeline(RenderPipelineDescriptor {
                 label: Some("horizon_rival".into()),
                 layout: self.layouts.to_vec(),
-                vertex: VertexState {
-                    shader: shader.clone(),
-                    entry_point: Some("fullscreen".into()),
-                    ..default()
-                },
+                vertex: VertexState { shader: shader.clone(), entry_point: Some("fullscreen".into()), ..default() },
                 depth_stencil: Some(DepthStencilState {
                     format: CORE_3D_DEPTH_FORMAT,
                     depth_write_enabled: Some(true),
