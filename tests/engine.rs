@@ -65,6 +65,28 @@ fn without_a_world_nothing_is_built() {
     assert!(own(&idle.1).is_empty(), "{:?}", own(&idle.1));
 }
 
+/// Bytes on the device in buffers of ours.
+fn own_bytes(stage: &Stage) -> u64 {
+    let device = stage.off.app.sub_app(RenderApp).world().resource::<RenderDevice>();
+    device.poll(PollType::wait_indefinitely()).expect("the device answers");
+    let report = device.wgpu_device().generate_allocator_report().expect("the device reports its allocations");
+    report.allocations.iter().filter(|a| a.name.contains("horizon")).map(|a| a.size).sum()
+}
+
+#[test]
+fn device_memory_stays_within_its_limit() {
+    for size in [[1280, 720], [160, 90]] {
+        let mut stage = Stage::new(size[0], size[1]);
+        stage.light();
+        stage.world().spawn(Terrain::default());
+        stage.look(Transform::from_xyz(0.0, 900.0, 0.0).looking_to(Vec3::new(0.0, -0.2, -1.0), Vec3::Y));
+        stage.settle();
+        let used = own_bytes(&stage) as f64 / f64::from(1 << 20);
+        println!("{size:?}: {used:.1} MiB");
+        assert!(used > 4.0 && used <= 128.0, "{size:?}: {used} MiB");
+    }
+}
+
 #[test]
 fn terrain_adds_only_its_own() {
     let mut stage = Stage::new(160, 90);

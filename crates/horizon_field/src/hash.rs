@@ -1,5 +1,7 @@
 //! The hash of lattice cells: permuted congruential (PCG), over 64-bit cells taken as two 32-bit words each, so that
-//! no world repeats and no coordinate wraps early. `hash.wgsl` is its twin, equal bit for bit.
+//! no coordinate wraps early. `hash.wgsl` is its twin, equal bit for bit. The high word's hash shifts the low word: one
+//! octave's lattice beyond 2³² cells is itself at another offset, a different one in each octave and along each axis, so
+//! that sums of octaves, which is what worlds are, do not come again.
 //!
 //! One axis is hashed by both words of its coordinate, then the axes are mixed: corners of one cell share their axes'
 //! hashes, which is what makes the hash cheap.

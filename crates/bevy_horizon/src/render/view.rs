@@ -107,8 +107,8 @@ pub fn prepare_views(
             rings: table.rings,
         };
         ground.offsets[0] = uniforms.views.push(&uniform);
-        // `clamp` keeps NaN, `max` and `min` take their limit in its place.
-        let scale = camera.camera.render_scale.max(0.25).min(1.0);
+        // `clamp` keeps NaN, which the comparison then takes for the whole size.
+        let scale = camera.camera.render_scale.clamp(0.25, 1.0);
         ground.scaled = (scale < 1.0).then(|| (size.as_vec2() * scale).ceil().as_uvec2());
         if let Some(size) = ground.scaled {
             let viewport = Vec4::new(0.0, 0.0, size.x as f32, size.y as f32);

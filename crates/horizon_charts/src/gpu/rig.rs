@@ -115,10 +115,8 @@ impl<'a> Rig<'a> {
         let camera = self.stage.camera;
         self.stage.world().entity_mut(camera).insert(RivalMarch(method));
         self.shot.rival = Some(method);
-        // What the pipeline and the first frames cost is not the method's, nor what the last method's frames did.
-        for _ in 0..2 {
-            self.stage.frame();
-        }
+        // Timestamps come back a frame late: those of the last method with this frame, and those of this frame with the next.
+        self.stage.frame();
     }
 
     /// The camera is so many metres from where it began, without having been between.
