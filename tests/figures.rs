@@ -1,12 +1,9 @@
-//! The README's figures and charts are those of the committed summary, and the summary's counts those of this code.
+//! The README's figures and charts are those of the committed summary.
 
 use std::path::Path;
 
-use bevy_horizon::prelude::Place;
-use bevy_horizon_workspace::stage::FOV;
-use bevy_horizon_workspace::views::{Seen, four, truth_camera};
+use bevy_horizon_workspace::views::four;
 use horizon_charts::{run, summary};
-use horizon_field::methods::{HeightField, Method, picture};
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -15,24 +12,6 @@ fn root() -> &'static Path {
 #[test]
 fn the_readme_quotes_the_summary() {
     run::check_readme(root()).unwrap_or_else(|error| panic!("{error}"));
-}
-
-/// What no clock has a say in: work and error of the CPU's marches, computed again.
-#[test]
-fn the_summary_is_of_this_code() {
-    let summary = summary::read(&root().join(run::PUBLISHED)).expect("there is a published summary");
-    let rows = summary["march_cpu"].as_array().expect("rows of the CPU's marches");
-    for view in four() {
-        let method = Method::FixedStep { a: 10.0, b: 0.01, c: 0.5, k: 6 };
-        let row = rows.iter().find(|row| row["view"] == view.name && row["settings"] == "a=10 b=0.01 c=0.5 k=6");
-        let published = row.expect("a row of each view")["evals_per_ray"].as_f64().expect("a number");
-        let seen = Seen::new(view, Place::ORIGIN).unwrap();
-        let camera = truth_camera(&seen.pose(0.0), FOV, [160, 90]);
-        let ground = HeightField::new(&seen.ground, &seen.place);
-        let (depth, work) = picture(&method, &ground, &camera, f64::from(seen.view.far), 2);
-        let counted = work.evaluations as f64 / depth.len() as f64;
-        assert!((counted - published).abs() < 1e-3 * published, "{}: {counted}, not {published}", seen.view.name);
-    }
 }
 
 #[test]

@@ -16,7 +16,7 @@ use horizon_field::methods::Method;
 use super::extract::ExtractedHorizonCamera;
 use super::view;
 
-/// Put it on a camera beside [`HorizonCamera`](crate::HorizonCamera), and its ground is drawn by this method: fixed steps,
+/// Put it on a camera beside [`HorizonCamera`](crate::camera::HorizonCamera), and its ground is drawn by this method: fixed steps,
 /// linear interpolation or sphere tracing. Methods that need bounds draw nothing, they are for the CPU.
 #[derive(Component, Clone, Copy, Debug, ExtractComponent)]
 pub struct RivalMarch(pub Method);
