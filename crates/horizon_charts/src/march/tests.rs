@@ -109,6 +109,6 @@ fn the_plane_has_a_chart_for_each_view() {
     assert_eq!(scatter.groups[0].name, OURS);
     assert!(scatter.groups[1].dots[0].missed);
     let svg = charts[0].chart.svg().unwrap();
-    assert!(svg.contains("horizon is 30 times as fast at equal error") && svg.contains("has wrong pixels"));
+    assert!(svg.contains("cached is 30 times as fast at equal error") && svg.contains("has wrong pixels"));
     assert!(columns::<MarchRow>().contains(&"false"));
 }
