@@ -73,12 +73,3 @@ fn certified_methods_hold_on_mountains() {
         [Method::Segment { pixel: 0.25 }, Method::Linear { delta: 0.01 }].map(|m| noise(m).unwrap());
     assert!(10 * segment < linear, "{segment} and {linear} octaves");
 }
-
-/// `cargo test -p horizon_field --features baselines figures -- --ignored --nocapture`
-#[test]
-#[ignore = "prints figures, which takes half a minute"]
-fn figures() {
-    reports([160, 90], core::f64::consts::FRAC_PI_3);
-    // The middle of the same view at the pixels of 720 rows.
-    reports([160, 90], 2.0 * (0.125 * (0.5 * core::f64::consts::FRAC_PI_3).tan()).atan());
-}
