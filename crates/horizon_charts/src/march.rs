@@ -101,6 +101,15 @@ impl MarchRow {
         [self.ms, self.fill_ms, self.ide_px_mean, self.normal_px_p99].iter().all(|x| x.is_finite())
     }
 
+    /// Whether no error is greater than the other's, but for those in which even `exact` is worse than the other.
+    fn is_no_worse_as_far_as(&self, exact: &Self, other: &Self) -> bool {
+        let reached = |of: fn(&Self) -> f64| of(self) <= of(other) || of(exact) > of(other);
+        self.missed <= other.missed
+            && self.false_hits <= other.false_hits
+            && reached(|row| row.ide_px_mean)
+            && reached(|row| row.normal_px_p99)
+    }
+
     /// Errors in the order in which they weigh: wrong pixels first.
     fn weight(&self) -> (u64, f64, f64) {
         (self.missed + self.false_hits, self.ide_px_mean, self.normal_px_p99)
@@ -122,6 +131,12 @@ pub struct Speedup {
     pub rival_ms: f64,
     /// Whether no rival is as exact as ours at its most exact, so that ours was loosened to the most exact rival.
     pub loosened: bool,
+    /// The mean error along the ray, in pixels: ours and the rival's.
+    pub ide_px_mean: [f64; 2],
+    /// The 99th percentile of the distance to the surface, in pixels: ours and the rival's.
+    pub normal_px_p99: [f64; 2],
+    /// Wrong pixels: ours and the rival's.
+    pub wrong: [u64; 2],
 }
 
 fn least<'a>(
@@ -143,8 +158,9 @@ pub fn most_exact<'a>(rows: impl IntoIterator<Item = &'a MarchRow>) -> Option<&'
 
 /// How many times as fast ours is at equal error, over the rows of one view, device and run.
 ///
-/// Ours, at its most exact, is held against the fastest rival that is no worse in any error. Where none is as exact,
-/// the most exact rival is held against our fastest setting that is no worse than it. `None` where nothing compares.
+/// Ours, at its most exact, is held against the fastest rival that is no worse in any error. Where none is as exact, the most
+/// exact rival is held against our fastest setting that is no worse than it: in wrong pixels, and in those of the two other
+/// errors in which ours can be. `None` where ours has more wrong pixels, or is worse in both.
 pub fn speedup_at_equal_error<'a>(rows: impl IntoIterator<Item = &'a MarchRow>) -> Option<Speedup> {
     let (ours, rivals): (Vec<_>, Vec<_>) =
         rows.into_iter().filter(|row| row.is_measured()).partition(|row| row.is_ours());
@@ -154,7 +170,10 @@ pub fn speedup_at_equal_error<'a>(rows: impl IntoIterator<Item = &'a MarchRow>) 
         Some(rival) => (exact, rival),
         None => {
             let rival = most_exact(rivals)?;
-            (fastest(ours.into_iter().filter(|row| row.is_no_worse_than(rival)))?, rival)
+            if exact.ide_px_mean > rival.ide_px_mean && exact.normal_px_p99 > rival.normal_px_p99 {
+                return None;
+            }
+            (fastest(ours.into_iter().filter(|row| row.is_no_worse_as_far_as(exact, rival)))?, rival)
         }
     };
     Some(Speedup {
@@ -164,6 +183,9 @@ pub fn speedup_at_equal_error<'a>(rows: impl IntoIterator<Item = &'a MarchRow>) 
         rival: format!("{} {}", rival.method, rival.settings),
         rival_ms: rival.total_ms(),
         loosened: reaching.is_none(),
+        ide_px_mean: [ours.ide_px_mean, rival.ide_px_mean],
+        normal_px_p99: [ours.normal_px_p99, rival.normal_px_p99],
+        wrong: [ours, rival].map(|row| row.missed + row.false_hits),
     })
 }
 

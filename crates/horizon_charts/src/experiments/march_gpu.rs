@@ -179,7 +179,7 @@ impl MarchGpu {
             if !reaches {
                 table.push(tried.clone())?;
             }
-            if reaches || best.as_ref().is_none_or(|(best, _)| tried.is_no_worse_than(best)) {
+            if reaches || best.as_ref().is_none_or(|(best, _)| march::most_exact([best, &tried]) == Some(&tried)) {
                 best = Some((tried, *method));
             }
             // What takes so much longer, and all that is slower, can but make the ratio larger.

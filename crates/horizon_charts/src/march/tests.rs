@@ -71,6 +71,24 @@ fn where_nothing_compares_there_is_no_ratio() {
     let ours = row(OURS, "", 1.0, 1, 0.4);
     let rival = row("fixed", "", 1.0, 0, 0.5);
     assert_eq!(speedup_at_equal_error([&ours, &rival]), None);
+    // Worse in the mean and in the percentile.
+    let ours = row(OURS, "", 1.0, 0, 0.6);
+    assert_eq!(speedup_at_equal_error([&ours, &rival]), None);
+}
+
+#[test]
+fn what_ours_never_reaches_is_left_out_of_the_comparison() {
+    // Bisected well on the surface, but farther along the ray than ours.
+    let rival = MarchRow { normal_px_p99: 0.01, ..row("fixed", "k=10", 500.0, 0, 0.5) };
+    let exact = row(OURS, "budget 0.5", 9.0, 0, 0.1);
+    let loose = row(OURS, "budget 1", 4.0, 0, 0.4);
+    let looser = row(OURS, "budget 2", 2.0, 0, 0.7);
+    let found = speedup_at_equal_error([&exact, &loose, &looser, &rival]).unwrap();
+    assert_eq!((found.ratio, found.ours.as_str(), found.loosened), (100.0, "budget 1", true));
+    assert_eq!(found.normal_px_p99, [3.0 * 0.4, 0.01]);
+    // More wrong pixels are never left out.
+    let wrong = MarchRow { missed: 1, ..exact.clone() };
+    assert_eq!(speedup_at_equal_error([&wrong, &rival]), None);
 }
 
 #[test]

@@ -16,10 +16,10 @@ use super::CachePipelines;
 use super::clipmap::{Clipmap, DrawnLevel, TILE, TILE_BOUNDS, Tile, Work, place_of};
 use crate::world::TerrainFields;
 
-/// Bytes of a tile: height, bounds, looks (normal and colour), light at a quarter.
-pub const TILE_BYTES: u64 = 4096 * (4 + 1) + LOOK_BYTES + TILE_BOUNDS * 8;
-/// Bytes of a tile's looks: the largest of the buffers.
-pub const LOOK_BYTES: u64 = 4096 * 8;
+/// Bytes of a tile: height, looks, bounds, and light, a byte for 2 × 2 texels.
+pub const TILE_BYTES: u64 = 4096 * 4 + LOOK_BYTES + TILE_BOUNDS * 4 + 1024;
+/// Bytes of a tile's looks, the largest of the buffers: for each pair of texels two colours and two normals.
+pub const LOOK_BYTES: u64 = 4096 * 6;
 
 /// What the passes read.
 pub struct CacheBuffers {
@@ -58,9 +58,9 @@ impl CacheBuffers {
         let [layers, numbers, images] = field_buffers(fields, device);
         Self {
             heights: stored("horizon_heights", texels * 4),
-            bounds: stored("horizon_bounds", TILE_BOUNDS * 8),
-            looks: stored("horizon_looks", texels * 8),
-            lights: stored("horizon_lights", texels),
+            bounds: stored("horizon_bounds", TILE_BOUNDS * 4),
+            looks: stored("horizon_looks", LOOK_BYTES),
+            lights: stored("horizon_lights", texels / 4),
             clipmap: UniformBuffer::default(),
             layers,
             numbers,

@@ -8,8 +8,8 @@ use horizon_field::{CELL, Place};
 
 /// Texels along a tile's side.
 pub const TILE: i64 = 64;
-/// Nodes of a tile's pyramid: 32² + 16² + 8² + 4² + 2² + 1.
-pub const TILE_BOUNDS: u64 = 1365;
+/// Words of a tile's pyramid: what its bounds are counted from and in, then 32² + 16² + 8² + 4² + 2² + 1 nodes.
+pub const TILE_BOUNDS: u64 = 2 + 1365;
 /// The most levels that a clipmap can have; the array in `surface.wgsl` is as long.
 pub const MAX_LEVELS: usize = 20;
 /// log2 of the coarsest texel, in metres: a world cell.

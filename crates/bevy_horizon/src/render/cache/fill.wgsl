@@ -13,17 +13,21 @@ struct Job {
 @group(1) @binding(0) var<storage, read> jobs: array<Job>;
 @group(1) @binding(1) var<uniform> material: Material;
 @group(1) @binding(2) var<storage, read_write> heights: array<f32>;
-@group(1) @binding(3) var<storage, read_write> looks: array<vec2<u32>>;
+@group(1) @binding(3) var<storage, read_write> looks: array<u32>;
 
-// A normal's x and z in 12 bits each; the low 8 bits are free.
-fn pack_normal(gradient: vec2<f32>) -> u32 {
+// A normal's x and z in 8 bits each. Rounded by lot, which is the same in every tile: smooth ground shows no steps.
+fn pack_normal(gradient: vec2<f32>, texel: vec2<u32>) -> u32 {
     let n = -gradient * inverseSqrt(1.0 + dot(gradient, gradient));
-    let q = vec2<u32>(clamp(round(n * 2047.0 + 2048.0), vec2<f32>(0.0), vec2<f32>(4095.0)));
-    return (q.x << 20u) | (q.y << 8u);
+    let lot = pcg(texel.x + (texel.y << 6u));
+    let dither = vec2<f32>(f32(lot & 0xffffu), f32(lot >> 16u)) / 65536.0;
+    let q = vec2<u32>(clamp(floor(n * 127.0 + 127.5 + dither), vec2<f32>(0.0), vec2<f32>(255.0)));
+    return (q.x << 8u) | q.y;
 }
 
+var<workgroup> normals: array<u32, 64>;
+
 @compute @workgroup_size(8, 8, 1)
-fn fill(@builtin(global_invocation_id) id: vec3<u32>, @builtin(workgroup_id) group: vec3<u32>) {
+fn fill(@builtin(global_invocation_id) id: vec3<u32>, @builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     // By the group, so that a compiler sees that all of it reads the same layers and anchors.
     let job = jobs[group.z];
     let q = vec2<f32>(id.xy) * job.texel;
@@ -34,5 +38,12 @@ fn fill(@builtin(global_invocation_id) id: vec3<u32>, @builtin(workgroup_id) gro
     let index = job.tile * 4096u + id.y * 64u + id.x;
     heights[index] = ground.x;
     let colour = material_at(job.anchor, q, job.texel, cutoff, ground);
-    looks[index] = vec2<u32>(pack_normal(ground.yz), pack4x8unorm(colour));
+    // Three words a pair of texels: two colours, then both normals.
+    let pair = 3u * (index >> 1u);
+    looks[pair + (index & 1u)] = pack4x8unorm(colour);
+    normals[lane] = pack_normal(ground.yz, id.xy);
+    workgroupBarrier();
+    if ((lane & 1u) == 0u) {
+        looks[pair + 2u] = normals[lane] | (normals[lane + 1u] << 16u);
+    }
 }

@@ -17,7 +17,7 @@ struct Sun {
 }
 
 @group(0) @binding(1) var<storage, read> heights: array<f32>;
-@group(0) @binding(2) var<storage, read> bounds: array<vec2<f32>>;
+@group(0) @binding(2) var<storage, read> bounds: array<u32>;
 
 struct TileJob {
     level: u32,
@@ -26,7 +26,7 @@ struct TileJob {
 
 @group(0) @binding(3) var<storage, read> jobs: array<TileJob>;
 @group(0) @binding(4) var<uniform> sun: Sun;
-@group(0) @binding(5) var<storage, read_write> lights: array<f32>;
+@group(0) @binding(5) var<storage, read_write> lights: array<u32>;
 
 const LIGHT_STEPS: u32 = 256u;
 
@@ -114,11 +114,19 @@ fn horizon(start_level: u32, start: vec2<i32>) -> f32 {
     return found;
 }
 
+// What a group found, before four bytes at a time become words.
+var<workgroup> seen: array<f32, 64>;
+
 @compute @workgroup_size(8, 8, 1)
-fn light(@builtin(global_invocation_id) id: vec3<u32>, @builtin(workgroup_id) group: vec3<u32>) {
+fn light(@builtin(global_invocation_id) id: vec3<u32>, @builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let job = jobs[group.z];
     let cell = job.cell + vec2<i32>(id.xy * 2u);
     let x = (horizon(job.level, cell) - sun.centre) / (sun.high - sun.centre);
-    let l = clipmap.levels[job.level];
-    lights[tile_of(l, wrapped(l, cell)) * TILE_LIGHTS + id.y * 32u + id.x] = disc_above(x);
+    seen[lane] = disc_above(x);
+    workgroupBarrier();
+    if ((lane & 3u) == 0u) {
+        let l = clipmap.levels[job.level];
+        let word = pack4x8unorm(vec4<f32>(seen[lane], seen[lane + 1u], seen[lane + 2u], seen[lane + 3u]));
+        lights[tile_of(l, wrapped(l, cell)) * TILE_LIGHTS + ((id.y * 32u + id.x) >> 2u)] = word;
+    }
 }

@@ -1,8 +1,9 @@
 // The pyramid of a tile: the lowest and highest point of 2 × 2 patches, and of each 2 × 2 of those, up to the tile. A
-// patch at the tile's far sides takes its neighbours' texels. Needs surface.wgsl.
+// patch at the tile's far sides takes its neighbours' texels. Bounds are stored in 16 bits each, counted from a little under
+// the tile's lowest point in steps of its relief, and rounded outwards. Needs surface.wgsl.
 
 @group(0) @binding(1) var<storage, read> heights: array<f32>;
-@group(0) @binding(2) var<storage, read_write> bounds: array<vec2<f32>>;
+@group(0) @binding(2) var<storage, read_write> bounds: array<u32>;
 
 struct TileJob {
     // The level, and the tile's first cell, relative to the centre's.
@@ -14,12 +15,25 @@ struct TileJob {
 
 var<workgroup> lowest: array<f32, 1024>;
 var<workgroup> highest: array<f32, 1024>;
+var<workgroup> extremes: array<vec2<f32>, 256>;
+
+// What a tile's bounds are counted from, and in: steps that no rounding of a sum can reach across a quarter of.
+fn scale_of(low: f32, high: f32) -> vec2<f32> {
+    let step = max((high - low) / 65000.0, 5e-7 * max(abs(low), abs(high)) + 1e-9);
+    return vec2<f32>(low - step, step);
+}
+
+fn packed(low: f32, high: f32, scale: vec2<f32>) -> u32 {
+    let q = (vec2<f32>(low, high) - scale.x) / scale.y;
+    return (u32(ceil(q.y + 0.25)) << 16u) | u32(floor(q.x - 0.25));
+}
 
 @compute @workgroup_size(16, 16, 1)
-fn pyramid(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) id: vec3<u32>) {
+fn pyramid(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) id: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let job = jobs[group.x];
     let l = clipmap.levels[job.level];
     let out = tile_of(l, wrapped(l, job.cell)) * TILE_BOUNDS;
+    var all = vec2<f32>(1e30, -1e30);
     // Mip 1: 32 × 32 nodes of 3 × 3 texels, four to a thread.
     for (var i = 0u; i < 4u; i++) {
         let node = vec2<u32>(id.x + 16u * (i & 1u), id.y + 16u * (i >> 1u));
@@ -33,7 +47,27 @@ fn pyramid(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id
         }
         lowest[node.y * 32u + node.x] = low;
         highest[node.y * 32u + node.x] = high;
-        bounds[out + node.y * 32u + node.x] = vec2<f32>(low, high);
+        all = vec2<f32>(min(all.x, low), max(all.y, high));
+    }
+    extremes[lane] = all;
+    for (var round = 1u; round <= 8u; round++) {
+        let half = 256u >> round;
+        workgroupBarrier();
+        if (lane < half) {
+            let a = extremes[lane];
+            let b = extremes[lane + half];
+            extremes[lane] = vec2<f32>(min(a.x, b.x), max(a.y, b.y));
+        }
+    }
+    workgroupBarrier();
+    let scale = scale_of(extremes[0].x, extremes[0].y);
+    if (lane == 0u) {
+        bounds[out] = bitcast<u32>(scale.x);
+        bounds[out + 1u] = bitcast<u32>(scale.y);
+    }
+    for (var i = 0u; i < 4u; i++) {
+        let node = lane + 256u * i;
+        bounds[out + BOUNDS_HEAD + node] = packed(lowest[node], highest[node], scale);
     }
     var offset = 1024u;
     var side = 16u;
@@ -47,7 +81,7 @@ fn pyramid(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id
             // In place: the node's own first entry, which no other thread of this round reads.
             lowest[at] = low;
             highest[at] = high;
-            bounds[out + offset + id.y * side + id.x] = vec2<f32>(low, high);
+            bounds[out + BOUNDS_HEAD + offset + id.y * side + id.x] = packed(low, high, scale);
         }
         offset += side * side;
         side /= 2u;

@@ -36,8 +36,11 @@ const TILE: u32 = 64u;
 const TILE_BITS: u32 = 6u;
 const TILE_TEXELS: u32 = 4096u;
 // 32² + 16² + 8² + 4² + 2² + 1
-const TILE_BOUNDS: u32 = 1365u;
-const TILE_LIGHTS: u32 = 1024u;
+// In words: what bounds are counted from and in, in metres, then two numbers of 16 bits a node.
+const TILE_BOUNDS: u32 = 1367u;
+const BOUNDS_HEAD: u32 = 2u;
+// In words: 32 × 32 points, 8 bits each.
+const TILE_LIGHTS: u32 = 256u;
 
 // A cell's index along each axis of a level's storage: brought into 0 .. n, from at most n outside.
 fn wrapped(l: Level, cell: vec2<i32>) -> vec2<u32> {
@@ -82,7 +85,9 @@ fn stored_bounds(l: Level, cell: vec2<i32>, mip: u32) -> vec2<f32> {
     let at = wrapped(l, cell);
     let offset = (4096u - (4096u >> (2u * (mip - 1u)))) / 3u;
     let node = (at & vec2<u32>(TILE - 1u)) >> vec2<u32>(mip);
-    return bounds[tile_of(l, at) * TILE_BOUNDS + offset + (node.y << (TILE_BITS - mip)) + node.x];
+    let tile = tile_of(l, at) * TILE_BOUNDS;
+    let word = bounds[tile + BOUNDS_HEAD + offset + (node.y << (TILE_BITS - mip)) + node.x];
+    return bitcast<f32>(bounds[tile]) + bitcast<f32>(bounds[tile + 1u]) * vec2<f32>(f32(word & 0xffffu), f32(word >> 16u));
 }
 
 // The cell of the next coarser level that holds a cell.

@@ -9,7 +9,7 @@
 // its *bin* is linear in v = m / (1 + |m|), which takes all slopes into (−1, 1).
 
 @group(0) @binding(1) var<storage, read> heights: array<f32>;
-@group(0) @binding(2) var<storage, read> bounds: array<vec2<f32>>;
+@group(0) @binding(2) var<storage, read> bounds: array<u32>;
 @group(0) @binding(3) var<uniform> view: View;
 @group(0) @binding(4) var<storage, read_write> clearance: array<f32>;
 

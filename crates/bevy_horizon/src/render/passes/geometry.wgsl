@@ -2,9 +2,9 @@
 // clear_start.wgsl and heat.wgsl.
 
 @group(0) @binding(1) var<storage, read> heights: array<f32>;
-@group(0) @binding(2) var<storage, read> bounds: array<vec2<f32>>;
-@group(0) @binding(3) var<storage, read> looks: array<vec2<u32>>;
-@group(0) @binding(4) var<storage, read> lights: array<f32>;
+@group(0) @binding(2) var<storage, read> bounds: array<u32>;
+@group(0) @binding(3) var<storage, read> looks: array<u32>;
+@group(0) @binding(4) var<storage, read> lights: array<u32>;
 @group(0) @binding(5) var<uniform> view: View;
 @group(0) @binding(6) var<storage, read> clearance: array<f32>;
 
@@ -15,15 +15,21 @@ struct Look {
     light: f32,
 }
 
-fn unpack_normal(word: u32) -> vec3<f32> {
-    let xz = (vec2<f32>(f32(word >> 20u), f32((word >> 8u) & 4095u)) - 2048.0) / 2047.0;
+fn stored_normal(texel: u32) -> vec3<f32> {
+    let word = looks[3u * (texel >> 1u) + 2u] >> (16u * (texel & 1u));
+    let xz = (vec2<f32>(f32((word >> 8u) & 255u), f32(word & 255u)) - 127.5) / 127.0;
     return vec3<f32>(xz.x, sqrt(max(1.0 - dot(xz, xz), 1e-4)), xz.y);
+}
+
+fn stored_colour(texel: u32) -> vec4<f32> {
+    return unpack4x8unorm(looks[3u * (texel >> 1u) + (texel & 1u)]);
 }
 
 fn light_at(l: Level, cell: vec2<i32>) -> f32 {
     let at = wrapped(l, cell);
     let texel = (at & vec2<u32>(TILE - 1u)) >> vec2<u32>(1u);
-    return lights[tile_of(l, at) * TILE_LIGHTS + (texel.y << 5u) + texel.x];
+    let i = (texel.y << 5u) + texel.x;
+    return f32((lights[tile_of(l, at) * TILE_LIGHTS + (i >> 2u)] >> (8u * (i & 3u))) & 255u) / 255.0;
 }
 
 // What one level holds at a point of the ground, interpolated.
@@ -33,11 +39,8 @@ fn level_look(l: Level, p: vec2<f32>) -> Look {
     let f = at - floor(at);
     let w = vec4<f32>((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
     let i = corner_indices(l, cell);
-    let stored = array<vec2<u32>, 4>(looks[i.x], looks[i.y], looks[i.z], looks[i.w]);
-    let normal = w.x * unpack_normal(stored[0].x) + w.y * unpack_normal(stored[1].x)
-        + w.z * unpack_normal(stored[2].x) + w.w * unpack_normal(stored[3].x);
-    let colour = w.x * unpack4x8unorm(stored[0].y) + w.y * unpack4x8unorm(stored[1].y)
-        + w.z * unpack4x8unorm(stored[2].y) + w.w * unpack4x8unorm(stored[3].y);
+    let normal = w.x * stored_normal(i.x) + w.y * stored_normal(i.y) + w.z * stored_normal(i.z) + w.w * stored_normal(i.w);
+    let colour = w.x * stored_colour(i.x) + w.y * stored_colour(i.y) + w.z * stored_colour(i.z) + w.w * stored_colour(i.w);
     // The light's lattice holds every other texel.
     let odd = (l.base + cell) & vec2<i32>(1);
     let even = cell - odd;
