@@ -11,8 +11,8 @@ fn main() {
 
 fn setup(mut commands: Commands) {
     commands.spawn((Terrain::default(), Atmosphere::default()));
-    commands.spawn((DirectionalLight { illuminance: 100_000.0, ..default() }, Sun::default().transform()));
-    commands.insert_resource(GlobalAmbientLight { brightness: 5_000.0, ..default() });
+    // Where the sun stands, by place, date and hour; the air says how bright it is, and how bright the sky.
+    commands.spawn((DirectionalLight::default(), Sunlight, TimeOfDay::default()));
     commands.spawn((
         Camera3d::default(),
         Exposure { ev100: 13.0 },

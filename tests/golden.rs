@@ -20,7 +20,7 @@ fn flip_image(picture: &RgbaImage) -> FlipImage<u8> {
     FlipImage::new(picture.width() as usize, picture.height() as usize, pixels).expect("the sizes agree")
 }
 
-fn compare(name: &str, picture: &RgbaImage) {
+pub fn compare(name: &str, picture: &RgbaImage) {
     let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
     let golden = root.join("tests/golden").join(format!("{name}.png"));
     let blessed = env::var("BLESS").unwrap_or_default();

@@ -15,5 +15,6 @@ mod queries;
 mod rivals;
 mod scaling;
 mod shaders;
+mod sky;
 mod stability;
 mod worlds;

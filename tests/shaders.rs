@@ -65,11 +65,11 @@ impl Uses {
     }
 }
 
-/// Validates a shader with no capability beyond WebGPU's own, and translates it into the three languages.
+/// Validates a shader with no capability beyond WebGPU's own (half floats in words are part of it), and translates it into the three languages.
 fn translate(name: &str, source: &str) -> Uses {
     let module =
         naga::front::wgsl::parse_str(source).unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(source)));
-    let info = Validator::new(ValidationFlags::all(), Capabilities::default())
+    let info = Validator::new(ValidationFlags::all(), Capabilities::SHADER_FLOAT16_IN_FLOAT32)
         .validate(&module)
         .unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(source)));
     assert!(!module.entry_points.is_empty(), "{name} has no entry point");

@@ -174,6 +174,13 @@ fn vertical_and_level_rays_end() {
     assert!(level[..160 * 45].iter().all(|depth| *depth == 0.0) && level[160 * 50..].iter().all(|depth| *depth > 0.0));
 }
 
+/// Clear air under a sun of this angular radius.
+fn air(sun_radius: f32) -> Atmosphere {
+    let medium = horizon_light::medium::Medium { sun_radius: sun_radius.into(), ..default() };
+    let gradient = SkyGradient { haze: 0.0, ..default() };
+    Atmosphere { model: SkyModel::Gradient, medium, gradient, ..default() }
+}
+
 /// A wall in the sun, drawn by what of the sun the ground sees.
 fn penumbra(radius: f32) -> f32 {
     // A plateau 100 m high on one half of the plane, its edge along z, a sun low over it.
@@ -196,7 +203,7 @@ fn penumbra(radius: f32) -> f32 {
     let (_, picture) = shown(|stage| {
         let sun = Sun { azimuth: -std::f32::consts::FRAC_PI_2, elevation: 0.25, ..default() };
         stage.world().spawn((DirectionalLight { illuminance: 1e5, ..default() }, sun.transform()));
-        stage.world().spawn((terrain, Atmosphere { sun_radius: radius, haze: 0.0, ..default() }));
+        stage.world().spawn((terrain, air(radius)));
         let camera = stage.camera;
         stage.world().get_mut::<HorizonCamera>(camera).unwrap().debug = DebugView::Light;
         // From above: 320 m across, the shadow's edge some 390 m from the step.

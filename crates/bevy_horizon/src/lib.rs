@@ -39,7 +39,9 @@ pub mod prelude {
     #[cfg(feature = "render")]
     pub use crate::render::ready::{WorldProgress, WorldReady};
     pub use crate::scene::{HorizonWorld, WorldFile};
-    pub use crate::world::{Atmosphere, Sun, Terrain, TerrainMaterial, WorldOrigin};
+    pub use crate::world::{
+        Atmosphere, SkyGradient, SkyModel, Sun, Sunlight, Terrain, TerrainMaterial, TimeOfDay, WorldOrigin,
+    };
     pub use crate::{HorizonPlugins, HorizonSystems};
     pub use horizon_field::{Field, Place};
 }
@@ -61,7 +63,7 @@ impl PluginGroup for HorizonPlugins {
 pub enum HorizonSystems {
     /// World files are put into components. In `PreUpdate`.
     Load,
-    /// Changed terrain is checked and compiled. In `PostUpdate`.
+    /// Changed terrain and air are checked and compiled. In `PostUpdate`.
     Compile,
 }
 
@@ -74,7 +76,15 @@ impl Plugin for HorizonWorldPlugin {
             .register_type::<world::Terrain>()
             .register_type::<world::Atmosphere>()
             .add_message::<world::TerrainRejected>()
-            .add_systems(PostUpdate, world::compile_terrain.in_set(HorizonSystems::Compile))
-            .add_observer(world::forget_terrain);
+            .register_type::<world::TimeOfDay>()
+            .add_message::<world::AtmosphereRejected>()
+            .add_systems(
+                PostUpdate,
+                (world::compile_terrain, (world::brighten, world::compile_atmospheres).chain())
+                    .in_set(HorizonSystems::Compile),
+            )
+            .add_systems(Update, world::turn_suns.run_if(resource_exists::<Time>))
+            .add_observer(world::forget_terrain)
+            .add_observer(world::forget_atmosphere);
     }
 }

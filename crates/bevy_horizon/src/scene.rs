@@ -14,6 +14,8 @@ use thiserror::Error;
 
 use crate::HorizonSystems;
 use crate::world::{Atmosphere, CompiledTerrain, ParamError, Sun, Terrain, TerrainError, check_params};
+#[cfg(feature = "render")]
+use crate::world::{SkyModel, Sunlight, illuminance};
 
 /// The version of world files that this crate reads and writes.
 pub const WORLD_VERSION: u32 = 1;
@@ -227,7 +229,7 @@ impl AssetLoader for WorldLoader {
 }
 
 /// Put it on an entity, and the file's terrain and air appear on it, its sun as a child. When the file changes, they do.
-/// A file with a sun also sets Bevy's `GlobalAmbientLight` to the sun's `ambient`.
+/// A file with a sun also sets Bevy's `GlobalAmbientLight`: to the sky's light, or without air that makes it, to the sun's `ambient`.
 #[derive(Component, Clone, Debug, Default, Reflect)]
 #[reflect(Component, Default, Clone)]
 #[require(Transform)]
@@ -307,6 +309,15 @@ fn apply_worlds(
         }
         #[cfg(feature = "render")]
         if let Some(sun) = &file.sun {
+            // Air that has tables makes the light itself.
+            if let Some(air) = file.atmosphere.as_ref().filter(|air| air.model != SkyModel::Gradient) {
+                let [r, g, b] = illuminance(&air.medium, 0.0, sun.direction().y.into()).map(|x| x as f32);
+                let brightest = r.max(g).max(b).max(1e-9);
+                let color = Color::linear_rgb(r / brightest, g / brightest, b / brightest);
+                let light = DirectionalLight { color, illuminance: brightest, ..default() };
+                commands.spawn((WorldSun, Sunlight, light, sun.transform(), ChildOf(owner)));
+                continue;
+            }
             let [r, g, b] = sun.colour;
             let light =
                 DirectionalLight { color: Color::linear_rgb(r, g, b), illuminance: sun.illuminance, ..default() };

@@ -8,6 +8,7 @@ pub mod march_gpu;
 pub mod naturalness;
 pub mod queries;
 pub mod seed_000;
+pub mod sky;
 
 use crate::experiment::Experiment;
 
@@ -22,5 +23,6 @@ pub fn all() -> Vec<Box<dyn Experiment>> {
         Box::new(anchoring::Anchoring),
         Box::new(naturalness::Naturalness),
         Box::new(cameras::Cameras),
+        Box::new(sky::Sky),
     ]
 }

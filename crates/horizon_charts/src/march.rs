@@ -83,15 +83,14 @@ impl MarchRow {
         self.method == OURS
     }
 
-    /// Whether pixels are wrong, not only inexact.
-    pub fn has_wrong_pixels(&self) -> bool {
-        self.missed + self.false_hits > 0
+    /// Pixels that are wrong, not only inexact: missed, or invented.
+    pub fn wrong(&self) -> u64 {
+        self.missed + self.false_hits
     }
 
     /// Whether no error is greater than the other's. What is not a number is worse than anything.
     pub fn is_no_worse_than(&self, other: &Self) -> bool {
-        self.missed <= other.missed
-            && self.false_hits <= other.false_hits
+        self.wrong() <= other.wrong()
             && self.ide_px_mean <= other.ide_px_mean
             && self.normal_px_p99 <= other.normal_px_p99
     }
@@ -104,15 +103,12 @@ impl MarchRow {
     /// Whether no error is greater than the other's, but for those in which even `exact` is worse than the other.
     fn is_no_worse_as_far_as(&self, exact: &Self, other: &Self) -> bool {
         let reached = |of: fn(&Self) -> f64| of(self) <= of(other) || of(exact) > of(other);
-        self.missed <= other.missed
-            && self.false_hits <= other.false_hits
-            && reached(|row| row.ide_px_mean)
-            && reached(|row| row.normal_px_p99)
+        self.wrong() <= other.wrong() && reached(|row| row.ide_px_mean) && reached(|row| row.normal_px_p99)
     }
 
     /// Errors in the order in which they weigh: wrong pixels first.
     fn weight(&self) -> (u64, f64, f64) {
-        (self.missed + self.false_hits, self.ide_px_mean, self.normal_px_p99)
+        (self.wrong(), self.ide_px_mean, self.normal_px_p99)
     }
 }
 
@@ -185,7 +181,7 @@ pub fn speedup_at_equal_error<'a>(rows: impl IntoIterator<Item = &'a MarchRow>) 
         loosened: reaching.is_none(),
         ide_px_mean: [ours.ide_px_mean, rival.ide_px_mean],
         normal_px_p99: [ours.normal_px_p99, rival.normal_px_p99],
-        wrong: [ours, rival].map(|row| row.missed + row.false_hits),
+        wrong: [ours, rival].map(MarchRow::wrong),
     })
 }
 
@@ -243,7 +239,7 @@ pub fn plane(view: &str, rows: &[&MarchRow]) -> Scatter {
         let dot = Dot {
             x: row.total_ms(),
             y: row.ide_px_mean,
-            missed: row.has_wrong_pixels(),
+            missed: row.wrong() > 0,
             label: if row.is_ours() { row.settings.clone() } else { String::new() },
         };
         match groups.iter_mut().find(|group| group.name == row.method) {

@@ -8,10 +8,11 @@ use std::{env, fs};
 use crate::run::{Failure, Tool, root};
 
 /// Each example, with the options that make it end by itself after a few frames.
-const UNATTENDED: [(&str, &[(&str, &str)]); 3] = [
+const UNATTENDED: [(&str, &[(&str, &str)]); 4] = [
     ("bench", &[("--frames", "2"), ("--size", "160x90")]),
     ("fly_through", &[("--frames", "3"), ("--size", "160x90")]),
     ("minimal", &[("--frames", "3")]),
+    ("time_of_day", &[("--frames", "3"), ("--size", "160x90")]),
 ];
 
 /// The options of `command` with those of the example that it runs put in, in place of its own values where it has them.

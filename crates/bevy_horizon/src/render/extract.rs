@@ -10,18 +10,18 @@ use bevy::render::sync_component::SyncComponent;
 use bevy::render::sync_world::RenderEntity;
 use horizon_field::Place;
 
+use super::air::ViewAir;
 use super::kernel::TerrainKernel;
 use super::passes::{ViewClearance, ViewPasses};
-use super::uniforms::SkyUniform;
 use super::view::ViewGround;
 use crate::camera::HorizonCamera;
-use crate::world::{Atmosphere, CompiledTerrain, TerrainFields, WorldOrigin};
+use crate::world::{Atmosphere, CompiledAtmosphere, CompiledTerrain, Sunlight, TerrainFields, WorldOrigin};
 
 /// The worlds, as they stand in this frame.
 #[derive(Resource, Default)]
 pub struct ExtractedWorld {
     pub terrains: Vec<ExtractedTerrain>,
-    pub atmospheres: Vec<(SkyUniform, f32, RenderLayers)>,
+    pub atmospheres: Vec<ExtractedAtmosphere>,
     pub sun: Option<ExtractedSun>,
     pub origin: Place,
     pub settings: super::cache::CacheSettings,
@@ -30,31 +30,41 @@ pub struct ExtractedWorld {
 impl ExtractedWorld {
     /// The sun, and its angular radius in radians, while any of its disc stands over the level.
     pub fn risen_sun(&self) -> Option<(ExtractedSun, f32)> {
-        let radius = self.atmospheres.first().map_or(Atmosphere::EARTH_SUN_RADIUS, |(_, radius, _)| *radius);
+        let radius = self.atmospheres.first().map_or(Atmosphere::EARTH_SUN_RADIUS, |air| air.sun_radius);
         self.sun.filter(|sun| sun.direction.y > -radius.sin()).map(|sun| (sun, radius))
     }
 
-    /// The air that a camera sees.
-    pub fn sky(&self, layers: &RenderLayers) -> Option<SkyUniform> {
-        self.atmospheres.iter().find(|(_, _, l)| layers.intersects(l)).map(|(sky, _, _)| sky.clone())
+    /// The air that a camera sees, by its index.
+    pub fn air(&self, layers: &RenderLayers) -> Option<usize> {
+        self.atmospheres.iter().position(|air| layers.intersects(&air.layers))
     }
+}
+
+/// An atmosphere.
+pub struct ExtractedAtmosphere {
+    pub compiled: CompiledAtmosphere,
+    pub sun_radius: f32,
+    pub translation: Vec3,
+    pub layers: RenderLayers,
 }
 
 pub struct ExtractedTerrain {
     pub entity: Entity,
-    pub fields: Arc<TerrainFields>,
+    pub(crate) fields: Arc<TerrainFields>,
     pub kernel: TerrainKernel,
     pub translation: Vec3,
     pub layers: RenderLayers,
 }
 
-/// The brightest directional light.
+/// The scene's [`Sunlight`], or else its brightest directional light.
 #[derive(Clone, Copy)]
 pub struct ExtractedSun {
     /// Towards it.
     pub direction: Vec3,
     /// In lux.
     pub illuminance: Vec3,
+    /// Whether the air dims it.
+    pub own: bool,
 }
 
 /// A camera that draws worlds.
@@ -69,7 +79,7 @@ pub struct ExtractedHorizonCamera {
 }
 
 impl SyncComponent for HorizonCamera {
-    type Target = (ExtractedHorizonCamera, ViewGround, ViewPasses, ViewClearance);
+    type Target = (ExtractedHorizonCamera, ViewGround, ViewAir, ViewPasses, ViewClearance);
 }
 
 type Terrains<'w, 's> = Query<
@@ -88,7 +98,7 @@ type Terrains<'w, 's> = Query<
 pub fn extract_world(
     mut world: ResMut<ExtractedWorld>,
     terrains: Extract<Terrains>,
-    suns: Extract<Query<(&DirectionalLight, &GlobalTransform, &InheritedVisibility)>>,
+    suns: Extract<Query<(&DirectionalLight, &GlobalTransform, &InheritedVisibility, Has<Sunlight>)>>,
     origin: Extract<Res<WorldOrigin>>,
     settings: Extract<Res<super::cache::CacheSettings>>,
 ) {
@@ -108,23 +118,31 @@ pub fn extract_world(
     }
     world.sun = suns
         .iter()
-        .filter(|(_, _, visibility)| visibility.get())
-        .map(|(light, transform, _)| ExtractedSun {
+        .filter(|(_, _, visibility, _)| visibility.get())
+        .map(|(light, transform, _, own)| ExtractedSun {
             direction: *transform.back(),
             illuminance: light.color.to_linear().to_vec3() * light.illuminance,
+            own,
         })
-        .max_by(|a, b| a.illuminance.element_sum().total_cmp(&b.illuminance.element_sum()));
+        .max_by(|a, b| {
+            let brighter = a.illuminance.element_sum().total_cmp(&b.illuminance.element_sum());
+            a.own.cmp(&b.own).then(brighter)
+        });
 }
 
 pub fn extract_atmospheres(
     mut world: ResMut<ExtractedWorld>,
-    atmospheres: Extract<Query<(&Atmosphere, &InheritedVisibility, Option<&RenderLayers>)>>,
+    atmospheres: Extract<Query<(&CompiledAtmosphere, &GlobalTransform, &InheritedVisibility, Option<&RenderLayers>)>>,
 ) {
     world.atmospheres.clear();
-    for (atmosphere, visibility, layers) in &atmospheres {
+    for (compiled, transform, visibility, layers) in &atmospheres {
         if visibility.get() {
-            let layers = layers.cloned().unwrap_or_default();
-            world.atmospheres.push((SkyUniform::new(atmosphere), atmosphere.sun_radius, layers));
+            world.atmospheres.push(ExtractedAtmosphere {
+                compiled: compiled.clone(),
+                sun_radius: compiled.atmosphere.medium.sun_radius as f32,
+                translation: transform.translation(),
+                layers: layers.cloned().unwrap_or_default(),
+            });
         }
     }
 }

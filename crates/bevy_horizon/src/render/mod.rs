@@ -1,6 +1,8 @@
 //! The picture. One stage a file, in data-flow order: `extract` (from the main world), `uniforms` (as shaders see it),
-//! `cache` (the field, at the resolution that the screen can show), `view` (a camera's rays), `passes` (into the view).
+//! `cache` (the field, at the resolution that the screen can show), `air` (its tables), `view` (a camera's rays), `passes` (into the
+//! view).
 
+mod air;
 pub mod cache;
 pub(crate) mod extract;
 mod kernel;
@@ -46,7 +48,11 @@ impl Plugin for HorizonRenderPlugin {
                 PostUpdate,
                 truth::seek_truths.after(TransformSystems::Propagate).after(HorizonSystems::Compile),
             )
-            .add_systems(PreUpdate, ready::report);
+            .add_systems(PreUpdate, ready::report)
+            .add_systems(
+                PostUpdate,
+                crate::world::shine.after(TransformSystems::Propagate).after(HorizonSystems::Compile),
+            );
         shaders::add_shaders(&mut app.world_mut().resource_mut());
         let progress = ready::Progress::default();
         app.insert_resource(progress.clone());
@@ -60,19 +66,24 @@ impl Plugin for HorizonRenderPlugin {
             .init_resource::<cache::CachePipelines>()
             .init_resource::<passes::PassPipelines>()
             .init_resource::<passes::ClearancePipeline>()
+            .init_resource::<air::AirTables>()
+            .init_resource::<air::AirPipelines>()
             .init_resource::<view::HorizonViews>()
             .add_systems(ExtractSchedule, (extract::extract_world, extract::extract_cameras, truth::extract_truths))
             .add_systems(
                 Render,
                 (
                     passes::read_depth.after(prepare_view_targets).in_set(RenderSystems::PrepareViews),
-                    (cache::prepare_caches, view::prepare_views, passes::prepare_pipelines)
+                    (cache::prepare_caches, air::prepare_airs, view::prepare_views, passes::prepare_pipelines)
                         .chain()
                         .in_set(RenderSystems::PrepareResources),
-                    passes::prepare_bind_groups.in_set(RenderSystems::PrepareBindGroups),
+                    (passes::prepare_bind_groups, air::bind_airs).in_set(RenderSystems::PrepareBindGroups),
                 ),
             )
-            .add_systems(RenderGraph, cache::fill_caches.in_set(RenderGraphSystems::Render).before(camera_driver));
+            .add_systems(
+                RenderGraph,
+                (cache::fill_caches, air::fill_airs).chain().in_set(RenderGraphSystems::Render).before(camera_driver),
+            );
         passes::add_ground(render_app);
     }
 }

@@ -12,9 +12,9 @@ pub struct WorldReady;
 /// How much of what the cameras need is up to date; sent when it changes.
 #[derive(Message, Clone, Copy, Debug, PartialEq, Eq)]
 pub struct WorldProgress {
-    /// Tiles that are up to date, and one for light and kernel of each cache.
+    /// Tiles that are up to date, and one for light and kernel of each cache, and one for each air.
     pub done: u32,
-    /// Tiles in all, and one for each cache.
+    /// Tiles in all, and one for each cache, and one for each air.
     pub total: u32,
 }
 
@@ -25,6 +25,12 @@ pub struct Progress(Arc<AtomicU64>);
 impl Progress {
     pub(crate) fn set(&self, done: usize, total: usize) {
         self.0.store(((done as u64) << 32) | total as u64, Ordering::Relaxed);
+    }
+
+    /// More of the same frame.
+    pub(crate) fn add(&self, done: usize, total: usize) {
+        let WorldProgress { done: before, total: of } = self.get();
+        self.set(before as usize + done, of as usize + total);
     }
 
     /// The counts of the last frame that was drawn.

@@ -1,7 +1,10 @@
 //! What the shaders see: one struct each, laid out by `ShaderType`.
 
-use bevy::math::{IVec2, Mat4, UVec3, Vec2, Vec3, Vec4};
+use bevy::math::{IVec2, Mat3, Mat4, UVec3, Vec2, Vec3, Vec4};
 use bevy::render::render_resource::ShaderType;
+
+use horizon_light::models::air::Air;
+use horizon_light::sun::SunDisc;
 
 use super::cache::clipmap::{DrawnLevel, MAX_LEVELS};
 use crate::world::{Atmosphere, TerrainMaterial};
@@ -137,33 +140,80 @@ pub struct HorizonViewUniform {
     pub slopes: Vec2,
     pub columns: UVec3,
     pub rings: Vec2,
+    pub sun_towards: Vec3,
 }
 
-/// `Sky` of `sky.wgsl`.
+/// `GradientAir` of `sky_gradient.wgsl`.
 #[derive(Clone, Debug, PartialEq, ShaderType)]
-pub struct SkyUniform {
-    pub zenith: Vec4,
-    pub horizon: Vec4,
-    pub glow: Vec4,
+pub struct GradientUniform {
+    pub zenith: Vec3,
+    // Of the shader's own haze, which is not used: this one thins with height.
+    pub level_haze: f32,
+    pub horizon: Vec3,
+    pub night: f32,
+    pub sunset: Vec3,
+    #[shader(align(16))]
     pub haze: f32,
     pub haze_height: f32,
     pub sun_cosine: f32,
     pub sun_luminance: f32,
 }
 
-impl SkyUniform {
+impl GradientUniform {
     pub fn new(atmosphere: &Atmosphere) -> Self {
-        let colour = |rgb: [f32; 3]| Vec3::from_array(rgb).extend(0.0);
+        let gradient = &atmosphere.gradient;
         Self {
-            zenith: colour(atmosphere.zenith),
-            horizon: colour(atmosphere.horizon),
-            glow: colour(atmosphere.glow),
-            // `max` also takes the limit in place of NaN.
-            haze: atmosphere.haze.max(0.0),
-            haze_height: atmosphere.haze_height.max(1.0),
-            sun_cosine: atmosphere.sun_radius.max(1e-4).cos(),
+            zenith: gradient.zenith.into(),
+            level_haze: 0.0,
+            horizon: gradient.horizon.into(),
+            night: atmosphere.night,
+            sunset: gradient.sunset.into(),
+            haze: gradient.haze,
+            haze_height: gradient.haze_height,
+            sun_cosine: (atmosphere.medium.sun_radius as f32).max(1e-4).cos(),
             // Bright enough to bloom, dim enough for a half float.
             sun_luminance: 6e4,
         }
     }
+}
+
+/// `Medium` of horizon_light's `air.wgsl`: seven rows, each a colour and a number.
+#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
+pub struct MediumUniform {
+    pub rows: [Vec4; 7],
+}
+
+impl MediumUniform {
+    pub fn new(air: &Air<f32>) -> Self {
+        Self { rows: air.uniform().map(Vec4::from_array) }
+    }
+}
+
+/// `SunDisc` of horizon_light's `sun.wgsl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
+pub struct DiscUniform {
+    pub center: Vec3,
+    pub sine: f32,
+    pub limb: [Vec3; 6],
+}
+
+impl DiscUniform {
+    pub fn new(disc: &SunDisc<f32>) -> Self {
+        Self { center: disc.center.into(), sine: disc.sine, limb: disc.limb.map(Vec3::from_array) }
+    }
+}
+
+/// `AirView` of `air_view.wgsl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
+pub struct AirUniform {
+    pub medium: MediumUniform,
+    pub disc: DiscUniform,
+    pub to_rgb: Mat3,
+    pub diffuse: [Vec3; 6],
+    pub sun: Vec3,
+    pub h: f32,
+    pub datum: f32,
+    pub far: f32,
+    pub night: f32,
+    pub own_sun: u32,
 }

@@ -12,7 +12,8 @@ use horizon_field::Place;
 use super::cache::{Caches, pixel_size};
 use super::extract::{ExtractedHorizonCamera, ExtractedWorld};
 use super::passes::{ClearancePipeline, Table};
-use super::uniforms::{HorizonViewUniform, SkyUniform};
+use super::uniforms::{AirUniform, GradientUniform, HorizonViewUniform};
+use crate::world::SkyModel;
 
 /// What a view draws.
 #[derive(Component, Clone)]
@@ -21,23 +22,45 @@ pub struct ViewGround {
     pub cache: Option<usize>,
     /// The camera's place, relative to the terrain.
     pub eye: Place,
-    /// The sky over it.
-    pub sky: Option<SkyUniform>,
+    /// The atmosphere over it, by its index among those of this frame.
+    pub air: Option<usize>,
+    /// How that is drawn.
+    pub sky: Option<ViewSky>,
     /// Radians per pixel, or metres per pixel where orthographic.
     pub pixel: f32,
     /// What its clearance table holds, if it has one: perspective views of a terrain do.
     pub table: Option<Table>,
     /// The size at which the ground is drawn, if it is not the view's own.
     pub scaled: Option<UVec2>,
-    /// The offsets of its uniforms: the view's, the sky's, and the view's at the lower resolution.
+    /// The offsets of its uniforms: the view's, the air's, and the view's at the lower resolution.
     pub offsets: [u32; 3],
+}
+
+/// How a view's air is drawn.
+#[derive(Clone, Debug)]
+pub enum ViewSky {
+    /// As a gradient.
+    Gradient(GradientUniform),
+    /// From tables, by their index.
+    Air { model: SkyModel, table: usize },
+}
+
+impl ViewSky {
+    /// The model.
+    pub fn model(&self) -> SkyModel {
+        match self {
+            Self::Gradient(_) => SkyModel::Gradient,
+            Self::Air { model, .. } => *model,
+        }
+    }
 }
 
 /// The views' uniforms; no buffer before a view draws a world.
 #[derive(Resource, Default)]
 pub struct HorizonViews {
     pub views: DynamicUniformBuffer<HorizonViewUniform>,
-    pub skies: DynamicUniformBuffer<SkyUniform>,
+    pub gradients: DynamicUniformBuffer<GradientUniform>,
+    pub airs: DynamicUniformBuffer<AirUniform>,
 }
 
 type Views<'w, 's> = Query<
@@ -64,7 +87,7 @@ pub fn prepare_views(
     mut views: Views,
 ) {
     uniforms.views.clear();
-    uniforms.skies.clear();
+    uniforms.gradients.clear();
     for (mut ground, camera, view, extracted, jitter, resolution) in &mut views {
         let size = resolution.map(|size| size.0).or(extracted.physical_viewport_size);
         let size = size.unwrap_or(UVec2::ONE).max(UVec2::ONE);
@@ -105,6 +128,7 @@ pub fn prepare_views(
             slopes: table.slopes,
             columns: table.columns,
             rings: table.rings,
+            sun_towards: world.sun.map_or(Vec3::Y, |sun| sun.direction),
         };
         ground.offsets[0] = uniforms.views.push(&uniform);
         // `clamp` keeps NaN, which the comparison then takes for the whole size.
@@ -114,14 +138,14 @@ pub fn prepare_views(
             let viewport = Vec4::new(0.0, 0.0, size.x as f32, size.y as f32);
             ground.offsets[2] = uniforms.views.push(&HorizonViewUniform { viewport, ..uniform });
         }
-        if let Some(sky) = ground.sky.clone() {
-            ground.offsets[1] = uniforms.skies.push(&sky);
+        if let Some(ViewSky::Gradient(gradient)) = ground.sky.clone() {
+            ground.offsets[1] = uniforms.gradients.push(&gradient);
         }
     }
     if !uniforms.views.is_empty() {
         uniforms.views.write_buffer(&device, &queue);
     }
-    if !uniforms.skies.is_empty() {
-        uniforms.skies.write_buffer(&device, &queue);
+    if !uniforms.gradients.is_empty() {
+        uniforms.gradients.write_buffer(&device, &queue);
     }
 }

@@ -2,51 +2,114 @@
 
 use bevy::prelude::*;
 use horizon_field::field::Param;
+use horizon_light::medium::Medium;
+use horizon_light::models::gradient::GradientSky;
+use horizon_light::night::MOONLESS_NIGHT;
 use serde::{Deserialize, Serialize};
 
-/// The air, in the simplest model: a gradient sky and exponential haze over ground and meshes alike.
+/// The air: sky, sun disc and aerial perspective over ground and meshes alike, in every camera that draws worlds. The ground lies
+/// at the height of the entity's transform.
 ///
-/// Without it there is neither sky nor haze, and what the camera cleared to, or Bevy's own skybox, shows.
+/// Without it there is neither sky nor haze, and what the camera cleared to, Bevy's own skybox, or Bevy's own `Atmosphere`,
+/// shows. Put a [`Sunlight`](super::Sunlight) on the scene's `DirectionalLight`, and the air dims and colours that too.
 #[derive(Component, Clone, Debug, PartialEq, Reflect, Serialize, Deserialize)]
 #[reflect(Component, Default, Clone, PartialEq)]
 #[require(Transform)]
 #[cfg_attr(feature = "render", require(Visibility))]
 #[serde(default, deny_unknown_fields)]
 pub struct Atmosphere {
-    /// Luminance of the zenith, in cd/m², linear RGB. Default: a clear blue.
-    #[reflect(@Param { min: 0.0, max: 1e6, unit: "cd/m²", help: "Luminance of the zenith" })]
+    /// How its light is computed. Default: all orders of scattering.
+    pub model: SkyModel,
+    /// What it is made of; [`SkyModel::Gradient`] takes the sun's size from it alone. Default: Earth's.
+    pub medium: Medium,
+    /// The colours of [`SkyModel::Gradient`].
+    pub gradient: SkyGradient,
+    /// Luminance of a moonless night, in cd/m²: airglow and stars. Default: 0.0002.
+    #[reflect(@Param { min: 0.0, max: 1e6, unit: "cd/m²", help: "Luminance of a moonless night" })]
+    pub night: f32,
+}
+
+/// How the light of the air is computed, from the cheapest to the most exact. The README says how far each is off.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Reflect, Serialize, Deserialize)]
+#[reflect(Default, Clone, PartialEq)]
+pub enum SkyModel {
+    /// A gradient by view and sun, and exponential haze: no table, no integral.
+    Gradient,
+    /// Sunlight that is scattered once.
+    Single,
+    /// Once exactly, and then as if evenly to all sides (Hillaire 2020).
+    Fast,
+    /// All orders, each with the directions that molecules scatter it to.
+    #[default]
+    Full,
+}
+
+/// The colours of the simplest sky.
+#[derive(Clone, Copy, Debug, PartialEq, Reflect, Serialize, Deserialize)]
+#[reflect(Default, Clone, PartialEq)]
+#[serde(default, deny_unknown_fields)]
+pub struct SkyGradient {
+    /// Luminance of the zenith under a high sun, in cd/m², linear RGB. Default: a clear blue.
+    #[reflect(@Param { min: 0.0, max: 1e6, unit: "cd/m²", help: "Luminance of the zenith under a high sun" })]
     pub zenith: [f32; 3],
-    /// Luminance of the horizon and of the haze, in cd/m², linear RGB. Default: a pale blue.
+    /// Luminance of the horizon under a high sun, and of the haze, in cd/m², linear RGB. Default: a pale blue.
     #[reflect(@Param { min: 0.0, max: 1e6, unit: "cd/m²", help: "Luminance of the horizon and of the haze" })]
     pub horizon: [f32; 3],
-    /// Luminance that haze and sky add around the sun, in cd/m², linear RGB. Default: warm.
-    #[reflect(@Param { min: 0.0, max: 1e6, unit: "cd/m²", help: "Luminance added around the sun" })]
-    pub glow: [f32; 3],
+    /// Luminance of the horizon towards a setting sun, in cd/m², before it is dimmed with the whole sky. Default: warm.
+    #[reflect(@Param { min: 0.0, max: 1e6, unit: "cd/m²", help: "Luminance of the horizon towards a setting sun" })]
+    pub sunset: [f32; 3],
     /// Extinction of the haze at height 0, per metre: contrast falls to 1/e over its inverse. Default: 1/28 000.
     #[reflect(@Param { min: 0.0, max: 1.0, unit: "1/m", help: "Extinction of the haze at height 0" })]
     pub haze: f32,
     /// Height over which the haze thins to 1/e, in metres. Default: 1600.
     #[reflect(@Param { min: 1.0, max: 1e6, unit: "m", help: "Height over which the haze thins to 1/e" })]
     pub haze_height: f32,
-    /// The sun's angular radius, in radians, for its disc and for penumbras. Default: 0.004675, Earth's.
-    #[reflect(@Param { min: 1e-4, max: 0.5, unit: "rad", help: "The sun's angular radius" })]
-    pub sun_radius: f32,
+}
+
+impl SkyGradient {
+    /// Earth's.
+    pub const EARTH: Self = {
+        const fn single([r, g, b]: [f64; 3]) -> [f32; 3] {
+            [r as f32, g as f32, b as f32]
+        }
+        let sky = GradientSky::EARTH;
+        Self {
+            zenith: single(sky.zenith),
+            horizon: single(sky.horizon),
+            sunset: single(sky.sunset),
+            haze: 1.0 / 28_000.0,
+            haze_height: 1600.0,
+        }
+    };
+}
+
+impl Default for SkyGradient {
+    fn default() -> Self {
+        Self::EARTH
+    }
 }
 
 impl Atmosphere {
+    /// Earth's air.
+    pub const EARTH: Self = Self::of(Medium::EARTH);
+    /// Hazy air without ozone.
+    pub const LEEDS: Self = Self::of(Medium::LEEDS);
+    /// Mars', with its dust.
+    pub const MARS: Self = Self::of(Medium::MARS);
+    /// A thick and strange one.
+    pub const ALIEN: Self = Self::of(Medium::ALIEN);
+
+    /// Air of a medium, computed by all orders of scattering.
+    pub const fn of(medium: Medium) -> Self {
+        Self { model: SkyModel::Full, medium, gradient: SkyGradient::EARTH, night: MOONLESS_NIGHT as f32 }
+    }
+
     /// The sun's angular radius as seen from Earth, in radians (Bruneton 2017).
-    pub const EARTH_SUN_RADIUS: f32 = 0.004_675;
+    pub const EARTH_SUN_RADIUS: f32 = Medium::EARTH.sun_radius as f32;
 }
 
 impl Default for Atmosphere {
     fn default() -> Self {
-        Self {
-            zenith: [1100.0, 2300.0, 5200.0],
-            horizon: [5200.0, 6600.0, 8200.0],
-            glow: [5200.0, 4000.0, 2200.0],
-            haze: 1.0 / 28_000.0,
-            haze_height: 1600.0,
-            sun_radius: Self::EARTH_SUN_RADIUS,
-        }
+        Self::EARTH
     }
 }

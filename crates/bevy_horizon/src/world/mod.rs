@@ -1,14 +1,20 @@
 //! What the world is: components on an entity, in SI units, apart from how a camera draws them.
 
+mod air_light;
 mod atmosphere;
 mod compiled;
 mod material;
 mod origin;
 mod param;
+#[cfg(feature = "render")]
+mod shine;
 mod sun;
+mod sunlight;
 mod terrain;
 
-pub use atmosphere::Atmosphere;
+pub use air_light::{AtmosphereRejected, CompiledAtmosphere};
+pub(crate) use air_light::{brighten, compile_atmospheres, forget_atmosphere};
+pub use atmosphere::{Atmosphere, SkyGradient, SkyModel};
 #[cfg(feature = "render")]
 pub(crate) use compiled::TerrainFields;
 pub use compiled::{CompiledTerrain, TerrainError, TerrainRejected};
@@ -16,5 +22,11 @@ pub(crate) use compiled::{compile_terrain, forget_terrain};
 pub use material::{NoiseLayer, TerrainMaterial};
 pub use origin::WorldOrigin;
 pub use param::{ParamError, check_params};
+#[cfg(feature = "render")]
+pub use shine::illuminance;
+#[cfg(feature = "render")]
+pub(crate) use shine::{altitude, shine};
 pub use sun::Sun;
+pub(crate) use sunlight::turn_suns;
+pub use sunlight::{Sunlight, TimeOfDay, towards_sun};
 pub use terrain::{HeightImages, Terrain};

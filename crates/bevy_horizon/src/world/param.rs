@@ -49,7 +49,8 @@ fn check_numbers(path: &str, param: &Param, value: &dyn PartialReflect) -> Resul
         .try_downcast_ref::<f32>()
         .map(|x| f64::from(*x))
         .or_else(|| value.try_downcast_ref::<f64>().copied())
-        .or_else(|| value.try_downcast_ref::<u32>().map(|x| f64::from(*x)));
+        .or_else(|| value.try_downcast_ref::<u32>().map(|x| f64::from(*x)))
+        .or_else(|| value.try_downcast_ref::<i32>().map(|x| f64::from(*x)));
     match number {
         Some(value) if !(param.min..=param.max).contains(&value) => {
             Err(ParamError { field: path.into(), value, min: param.min, max: param.max, unit: param.unit })

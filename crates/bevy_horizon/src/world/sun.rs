@@ -4,7 +4,8 @@ use bevy::prelude::*;
 use horizon_field::field::Param;
 use serde::{Deserialize, Serialize};
 
-/// Where a world file's sun stands, and how bright it is. The scene makes it a `DirectionalLight`.
+/// Where a world file's sun stands, and how bright it is. The scene makes it a `DirectionalLight`. Under an atmosphere whose model is
+/// not a gradient, the air says how bright it is: `illuminance`, `colour` and `ambient` are not read then.
 #[derive(Clone, Copy, Debug, PartialEq, Reflect, Serialize, Deserialize)]
 #[reflect(Default, Clone, PartialEq)]
 #[serde(default, deny_unknown_fields)]

@@ -105,25 +105,25 @@ fn sweeps(ctx: &Context) -> Vec<Point> {
         frames: ctx.pick(3, 20),
     };
     let mut points = Vec::new();
-    for octaves in [1.0, 8.0, 16.0] {
+    for &octaves in ctx.pick(&[8.0, 16.0][..], &[1.0, 4.0, 8.0, 12.0, 16.0]) {
         points.push(base("octaves", octaves, View { field: mountains(octaves), ..valley.clone() }));
     }
-    for count in [1, 8] {
+    for &count in ctx.pick(&[1, 8][..], &[1, 2, 4, 8]) {
         points.push(base("nodes", f64::from(count), View { field: nodes(count), ..ridge.clone() }));
     }
-    for far in [10.0f32, 100.0] {
+    for &far in ctx.pick(&[10.0f32, 100.0][..], &[1.0, 10.0, 30.0, 100.0]) {
         points.push(base("far, km", f64::from(far), View { far: 1000.0 * far, ..ridge.clone() }));
     }
-    for height in [360usize, 720] {
+    for &height in ctx.pick(&[45usize, 90][..], &[180, 360, 720]) {
         let size = [height * 16 / 9, height];
         points.push(Point { size, ..base("pixels", (size[0] * size[1]) as f64, ridge.clone()) });
     }
     let low = View { above: 50.0, ..ridge.clone() };
-    for speed in [0.0, 100.0] {
+    for &speed in ctx.pick(&[0.0, 100.0][..], &[0.0, 10.0, 100.0]) {
         let frames = ctx.pick(3, if speed == 100.0 { 300 } else { 40 });
         points.push(Point { step: speed / 60.0, frames, ..base("speed, m/s", speed, low.clone()) });
     }
-    for zoom in [1.0f32, 10.0] {
+    for &zoom in ctx.pick(&[1.0f32, 10.0][..], &[1.0, 3.0, 10.0]) {
         points.push(Point {
             zoom,
             size: ctx.pick([160, 90], [640, 360]),
@@ -187,7 +187,7 @@ impl Experiment for Costs {
                 if !there {
                     table.push(point.row(ctx, None)?)?;
                 }
-                let swept = point.sweep == "octaves";
+                let swept = ["octaves", "nodes", "far, km"].contains(&point.sweep);
                 if swept && !table.has(&key(point, "fixed step")) {
                     table.push(point.row(ctx, Some(RIVAL))?)?;
                 }

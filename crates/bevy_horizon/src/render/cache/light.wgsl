@@ -40,7 +40,7 @@ fn disc_above(x: f32) -> f32 {
 fn level_height(l: Level, at: vec2<f32>) -> f32 {
     let cell = clamp(vec2<i32>(floor(at)), l.low, l.high - vec2<i32>(2));
     let f = at - vec2<f32>(cell);
-    return bilinear(stored_corners(l, cell), f.x, f.y);
+    return between_corners(stored_corners(l, cell), f.x, f.y);
 }
 
 // The tangent of the ground's elevation towards the sun, between the disc's edges.
@@ -68,7 +68,7 @@ fn horizon(start_level: u32, start: vec2<i32>) -> f32 {
             let h = stored_corners(l, cell);
             let at = origin + sun.towards * l.per_metre * d_exit - vec2<f32>(cell);
             if (d_exit > 0.75 * l.texel) {
-                found = max(found, (bilinear(h, at.x, at.y) - h0) / d_exit);
+                found = max(found, (between_corners(h, at.x, at.y) - h0) / d_exit);
             }
         } else {
             let b = stored_bounds(l, cell, mip);

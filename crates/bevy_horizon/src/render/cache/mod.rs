@@ -19,12 +19,12 @@ use self::clipmap::{Clipmap, DrawnLevel, TILE};
 use self::demand::Demand;
 pub(crate) use self::demand::pixel_size;
 pub(crate) use self::pipelines::CachePipelines;
-use super::extract::{ExtractedHorizonCamera, ExtractedTerrain, ExtractedWorld};
+use super::extract::{ExtractedAtmosphere, ExtractedHorizonCamera, ExtractedTerrain, ExtractedWorld};
 use super::passes::{ClearancePipeline, ViewClearance, ViewPasses};
 use super::ready::Progress;
-use super::uniforms::SunUniform;
-use super::view::ViewGround;
-use crate::world::TerrainFields;
+use super::uniforms::{GradientUniform, SunUniform};
+use super::view::{ViewGround, ViewSky};
+use crate::world::{SkyModel, TerrainFields};
 use std::sync::Arc;
 
 /// How much the caches may take. A resource of the main world.
@@ -105,9 +105,9 @@ pub(crate) fn prepare_caches(
     let drawing = views.iter().filter(|(_, camera, ..)| camera.cached && terrain_of(camera).is_some()).count();
     let share = world.settings.memory.clamp(16, 4096) / drawing.max(1) as u32;
     for (entity, camera, view, extracted, has_clearance) in &views {
-        let sky = world.sky(&camera.layers);
+        let air = world.air(&camera.layers);
         let terrain = terrain_of(camera);
-        if terrain.is_none() && sky.is_none() {
+        if terrain.is_none() && air.is_none() {
             commands.entity(entity).remove::<(ViewGround, ViewPasses, ViewClearance)>();
             continue;
         }
@@ -131,7 +131,8 @@ pub(crate) fn prepare_caches(
         commands.entity(entity).insert(ViewGround {
             cache,
             eye,
-            sky,
+            air,
+            sky: air.and_then(|air| gradient_of(&world.atmospheres[air])),
             pixel: 0.0,
             table: None,
             scaled: None,
@@ -150,6 +151,12 @@ pub(crate) fn prepare_caches(
         total += cache_total + 1;
     }
     progress.set(done, total);
+}
+
+/// What draws an atmosphere whose model is a gradient; the others have tables, which are looked for later.
+fn gradient_of(atmosphere: &ExtractedAtmosphere) -> Option<ViewSky> {
+    let atmosphere = &atmosphere.compiled.atmosphere;
+    (atmosphere.model == SkyModel::Gradient).then(|| ViewSky::Gradient(GradientUniform::new(atmosphere)))
 }
 
 /// A cache of this terrain and size: one that is used by a camera nearby, or else one that is free.

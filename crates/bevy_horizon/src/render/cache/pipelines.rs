@@ -13,7 +13,7 @@ use bevy::render::render_resource::{
 use bevy::shader::Shader;
 
 use super::super::extract::ExtractedTerrain;
-use super::super::shaders;
+use super::super::shaders::Source;
 use super::super::uniforms::{ClipmapUniform, MaterialUniform, SunUniform};
 
 /// The pipelines, and the layouts of what they bind.
@@ -93,10 +93,11 @@ impl CachePipelines {
             compute("horizon_fill", layout, terrain.kernel.shader.clone(), "fill")
         });
         self.pyramid.get_or_insert_with(|| {
-            compute("horizon_pyramid", vec![self.pyramid_layout.clone()], shaders::PYRAMID, "pyramid")
+            compute("horizon_pyramid", vec![self.pyramid_layout.clone()], Source::Pyramid.handle(), "pyramid")
         });
-        self.light
-            .get_or_insert_with(|| compute("horizon_light", vec![self.light_layout.clone()], shaders::LIGHT, "light"));
+        self.light.get_or_insert_with(|| {
+            compute("horizon_light", vec![self.light_layout.clone()], Source::Light.handle(), "light")
+        });
     }
 
     /// Whether a terrain of this structure can be filled.

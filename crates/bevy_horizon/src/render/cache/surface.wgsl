@@ -111,7 +111,7 @@ fn is_blended(l: Level, low: vec2<i32>, size: f32) -> bool {
     return max(far.x, far.y) > l.inner && l.inner < l.outer;
 }
 
-fn bilinear(h: vec4<f32>, u: f32, v: f32) -> f32 {
+fn between_corners(h: vec4<f32>, u: f32, v: f32) -> f32 {
     return mix(mix(h.x, h.y, u), mix(h.z, h.w, u), v);
 }
 
@@ -130,8 +130,8 @@ fn corners(l: Level, level: u32, cell: vec2<i32>) -> vec4<f32> {
     let c = stored_corners(clipmap.levels[level + 1u], coarser(l, cell));
     let s = 0.5 * vec2<f32>((l.base + cell) & vec2<i32>(1));
     return mix(h, vec4<f32>(
-        bilinear(c, s.x, s.y), bilinear(c, s.x + 0.5, s.y),
-        bilinear(c, s.x, s.y + 0.5), bilinear(c, s.x + 0.5, s.y + 0.5)), w);
+        between_corners(c, s.x, s.y), between_corners(c, s.x + 0.5, s.y),
+        between_corners(c, s.x, s.y + 0.5), between_corners(c, s.x + 0.5, s.y + 0.5)), w);
 }
 
 // The lowest and highest point that the drawn surface can have in a node, whose first cell is `low`.

@@ -14,7 +14,7 @@ use bevy::render::render_resource::{
 use bevy::render::renderer::{RenderContext, RenderDevice};
 
 use super::super::cache::CacheBuffers;
-use super::super::shaders;
+use super::super::shaders::Source;
 use super::super::uniforms::{ClipmapUniform, HorizonViewUniform};
 use super::super::view::HorizonViews;
 
@@ -158,7 +158,7 @@ impl ClearancePipeline {
             cache.queue_compute_pipeline(ComputePipelineDescriptor {
                 label: Some("horizon_clearance".into()),
                 layout: vec![self.layout.clone()],
-                shader: shaders::CLEARANCE,
+                shader: Source::Clearance.handle(),
                 entry_point: Some("clear".into()),
                 ..default()
             })

@@ -10,7 +10,7 @@
 
 @group(0) @binding(1) var<storage, read> heights: array<f32>;
 @group(0) @binding(2) var<storage, read> bounds: array<u32>;
-@group(0) @binding(3) var<uniform> view: View;
+@group(0) @binding(3) var<uniform> view: HorizonView;
 @group(0) @binding(4) var<storage, read_write> clearance: array<f32>;
 
 const RINGS: u32 = 1024u;

@@ -5,7 +5,7 @@ use bevy::ecs::query::QueryData;
 use bevy::prelude::*;
 use bevy::render::camera::ExtractedCamera;
 use bevy::render::diagnostic::RecordDiagnostics;
-use bevy::render::render_resource::{PipelineCache, RenderPassDescriptor, StoreOp};
+use bevy::render::render_resource::{PipelineCache, RenderPassDepthStencilAttachment, RenderPassDescriptor, StoreOp};
 use bevy::render::renderer::{RenderContext, ViewQuery};
 use bevy::render::view::{ViewDepthTexture, ViewTarget, ViewUniformOffset};
 
@@ -40,10 +40,14 @@ pub fn draw_ground(
     draw(Pass::Upsample, &view, &pipelines, &mut ctx);
 }
 
-/// The air, after Bevy's opaque meshes: sky where nothing was drawn, haze over what was. One fragment a sample, so that
+/// The air, after Bevy's opaque meshes: sky where nothing was drawn, haze over what was; where it has tables, first what it takes, then
+/// what it adds. One fragment a sample, so that
 /// the edges of meshes keep their antialiasing.
 pub fn draw_sky(view: ViewQuery<DrawnView>, pipelines: Res<PipelineCache>, mut ctx: RenderContext) {
-    draw(Pass::Sky, &view.into_inner(), &pipelines, &mut ctx);
+    let view = view.into_inner();
+    draw(Pass::Veil, &view, &pipelines, &mut ctx);
+    draw(Pass::Haze, &view, &pipelines, &mut ctx);
+    draw(Pass::Sky, &view, &pipelines, &mut ctx);
 }
 
 fn draw(pass: Pass, view: &DrawnViewItem, pipelines: &PipelineCache, ctx: &mut RenderContext) {
@@ -55,7 +59,6 @@ fn draw(pass: Pass, view: &DrawnViewItem, pipelines: &PipelineCache, ctx: &mut R
     let scaled = passes.scaled.as_ref().filter(|_| pass == Pass::Ground);
     let diagnostics = ctx.diagnostic_recorder();
     let diagnostics = diagnostics.as_deref();
-    // The air reads the depth, and so can't have it attached.
     let (colour, depth) = match scaled {
         Some(scaled) => (scaled.colour_attachment(), scaled.depth_attachment()),
         None => (view.target.get_color_attachment(), view.depth.get_attachment(StoreOp::Store)),
@@ -63,7 +66,11 @@ fn draw(pass: Pass, view: &DrawnViewItem, pipelines: &PipelineCache, ctx: &mut R
     let mut render_pass = ctx.begin_tracked_render_pass(RenderPassDescriptor {
         label: Some(pass.label()),
         color_attachments: &[Some(colour)],
-        depth_stencil_attachment: (pass != Pass::Sky).then_some(depth),
+        // The air also reads the depth as a texture, and so must not write it.
+        depth_stencil_attachment: Some(RenderPassDepthStencilAttachment {
+            depth_ops: depth.depth_ops.filter(|_| !pass.is_air()),
+            ..depth
+        }),
         timestamp_writes: None,
         occlusion_query_set: None,
         multiview_mask: None,
@@ -75,8 +82,10 @@ fn draw(pass: Pass, view: &DrawnViewItem, pipelines: &PipelineCache, ctx: &mut R
     }
     let [own, sky, low] = view.ground.offsets;
     let mut offsets = vec![if scaled.is_some() { low } else { own }];
-    offsets.extend((pass == Pass::Sky).then_some(sky));
+    // In the order of their bindings.
+    offsets.extend(pass.is_air().then_some(sky));
     offsets.extend(passes.ldr.then_some(view.offset.offset));
+    offsets.extend((passes.air && !pass.is_air()).then_some(sky));
     render_pass.set_render_pipeline(pipeline);
     render_pass.set_bind_group(0, group, &offsets);
     render_pass.draw(0..3, 0..1);

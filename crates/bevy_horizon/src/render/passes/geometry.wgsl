@@ -5,7 +5,7 @@
 @group(0) @binding(2) var<storage, read> bounds: array<u32>;
 @group(0) @binding(3) var<storage, read> looks: array<u32>;
 @group(0) @binding(4) var<storage, read> lights: array<u32>;
-@group(0) @binding(5) var<uniform> view: View;
+@group(0) @binding(5) var<uniform> view: HorizonView;
 @group(0) @binding(6) var<storage, read> clearance: array<f32>;
 
 struct Look {
@@ -45,7 +45,7 @@ fn level_look(l: Level, p: vec2<f32>) -> Look {
     let odd = (l.base + cell) & vec2<i32>(1);
     let even = cell - odd;
     let g = 0.5 * (vec2<f32>(odd) + f);
-    let light = bilinear(vec4<f32>(
+    let light = between_corners(vec4<f32>(
         light_at(l, even), light_at(l, even + vec2<i32>(2, 0)),
         light_at(l, even + vec2<i32>(0, 2)), light_at(l, even + vec2<i32>(2, 2))), g.x, g.y);
     return Look(normal, colour.rgb * colour.rgb, colour.a, light);
@@ -64,7 +64,7 @@ fn look_at(level: u32, p: vec2<f32>) -> Look {
 }
 
 // Lambert for the body; for the surface Blinn–Phong, normalised, under Schlick's Fresnel term.
-fn shade(look: Look, direction: vec3<f32>) -> vec3<f32> {
+fn shade(look: Look, direction: vec3<f32>, p: vec3<f32>) -> vec3<f32> {
     let n_l = max(dot(look.normal, view.sun_direction), 0.0);
     // A ray that looks along the sun's has no half way.
     let half_way = normalize(view.sun_direction - direction + vec3<f32>(0.0, 1e-6, 0.0));
@@ -72,11 +72,11 @@ fn shade(look: Look, direction: vec3<f32>) -> vec3<f32> {
     let schlick = pow(1.0 - max(dot(half_way, view.sun_direction), 0.0), 5.0);
     let fresnel = 0.04 + 0.96 * schlick;
     let surface = look.gloss * fresnel * (power + 8.0) / 25.132741 * pow(max(dot(look.normal, half_way), 0.0), power);
-    let sun = view.sun * n_l * look.light * (look.albedo / 3.14159265 + surface);
-    // The sky above, and ground of the same colour below.
-    let open = 0.5 + 0.5 * look.normal.y;
-    let ambient = view.ambient * look.albedo * mix(0.35, 1.0, open);
-    return sun + ambient;
+    var colour = skylight_on(look.normal) * look.albedo;
+    if (n_l * look.light > 0.0) {
+        colour += sunlight_at(p) * n_l * look.light * (look.albedo / 3.14159265 + surface);
+    }
+    return colour;
 }
 
 struct Ground {
@@ -121,8 +121,9 @@ fn ground_in(pixel: PixelRay, position: vec4<f32>) -> Ground {
     if (found.t < 0.0) {
         discard;
     }
-    let look = look_at(found.level, (pixel.ray.origin + direction * found.t).xz);
-    var colour = shade(look, direction) * view.exposure;
+    let p = pixel.ray.origin + direction * found.t;
+    let look = look_at(found.level, p.xz);
+    var colour = shade(look, direction, p) * view.exposure;
     if (HEAT) {
         colour = heat_colour(colour, found, look);
     }

@@ -27,21 +27,25 @@ pub use self::clearance::{ClearancePipeline, Table, ViewClearance};
 pub use self::pipelines::PassPipelines;
 use self::pipelines::{Pass, PassKey, Variant};
 use self::scaled::Scaled;
+use super::air::{AirTables, ViewAir};
 use super::cache::Caches;
 use super::extract::ExtractedHorizonCamera;
-use super::view::{HorizonViews, ViewGround};
+use super::view::{HorizonViews, ViewGround, ViewSky};
 use crate::camera::DebugView;
+use crate::world::SkyModel;
 
 /// A view's passes: pipelines, bind groups and the offsets into them.
 #[derive(Component, Default)]
 pub struct ViewPasses {
     ldr: bool,
     /// By [`Pass`].
-    pipelines: [Option<CachedRenderPipelineId>; 3],
-    groups: [Option<BindGroup>; 3],
+    pipelines: [Option<CachedRenderPipelineId>; 5],
+    groups: [Option<BindGroup>; 5],
     clearance: Option<BindGroup>,
     scaled: Option<Scaled>,
     heat: bool,
+    /// Whether the ground is lit by air that has tables.
+    air: bool,
 }
 
 /// The true distance along each pixel's ray, row by row, for the debug view of errors: 0 where it is not known, infinite where
@@ -110,7 +114,9 @@ pub fn prepare_pipelines(
             samples: msaa.samples(),
             tonemapping: tonemapping.copied().filter(|_| !camera.hdr),
             heat: horizon.camera.debug != DebugView::None,
+            air: ground.sky.as_ref().map_or(SkyModel::Gradient, ViewSky::model),
         };
+        let air = key.air != SkyModel::Gradient;
         let scaled = ground.cache.and(ground.scaled);
         let ground_key = PassKey { samples: if scaled.is_some() { 1 } else { key.samples }, ..key };
         commands.entity(entity).insert(ViewPasses {
@@ -118,12 +124,15 @@ pub fn prepare_pipelines(
             pipelines: [
                 ground.cache.map(|_| pipelines.get(&cache, Pass::Ground, ground_key)),
                 scaled.map(|_| pipelines.get(&cache, Pass::Upsample, key)),
+                air.then(|| pipelines.get(&cache, Pass::Veil, PassKey { heat: false, ..key })),
+                ground.sky.is_some().then(|| pipelines.get(&cache, Pass::Haze, PassKey { heat: false, ..key })),
                 ground.sky.is_some().then(|| pipelines.get(&cache, Pass::Sky, PassKey { heat: false, ..key })),
             ],
-            groups: [None, None, None],
+            groups: [const { None }; 5],
             clearance: None,
             scaled: scaled.map(|size| Scaled::new(size, key.format, &mut textures, &device)),
             heat: key.heat,
+            air,
         });
     }
 }
@@ -136,6 +145,7 @@ type BindViews<'w, 's> = Query<
         &'static ViewGround,
         Option<&'static ViewClearance>,
         Option<&'static ViewTruths>,
+        Option<&'static ViewAir>,
         &'static ViewDepthTexture,
         Option<&'static Tonemapping>,
         &'static Msaa,
@@ -157,11 +167,12 @@ pub fn prepare_bind_groups(
     caches: Res<Caches>,
     pipelines: Res<PassPipelines>,
     clearances: Res<ClearancePipeline>,
+    airs: Res<AirTables>,
     pipeline_cache: Res<PipelineCache>,
     device: Res<RenderDevice>,
     tonemappers: Tonemappers,
 ) {
-    for (mut passes, ground, clearance, truths, depth, tonemapping, msaa) in &mut views {
+    for (mut passes, ground, clearance, truths, air, depth, tonemapping, msaa) in &mut views {
         let (Some(view), Some(bevy_view)) = (uniforms.views.binding(), tonemappers.views.uniforms.binding()) else {
             continue;
         };
@@ -173,7 +184,7 @@ pub fn prepare_bind_groups(
             &tonemappers.fallback,
         );
         let multisampled = msaa.samples() > 1;
-        let (heat, scaled) = (passes.heat, passes.scaled.is_some());
+        let (heat, scaled, lit) = (passes.heat, passes.scaled.is_some(), passes.air);
         let create = |pass: Pass, entries: &[BindGroupEntry]| {
             let mut entries = entries.to_vec();
             if ldr {
@@ -184,11 +195,17 @@ pub fn prepare_bind_groups(
             let variant = Variant {
                 ldr,
                 multisampled: multisampled && !(scaled && pass == Pass::Ground),
-                heat: heat && pass != Pass::Sky,
+                heat: heat && !pass.is_air(),
+                air: lit,
             };
             let layout = pipeline_cache.get_bind_group_layout(pipelines.layout(pass, variant));
             device.create_bind_group("horizon_pass", &layout, &entries)
         };
+        let table = match ground.sky {
+            Some(ViewSky::Air { table, .. }) => airs.buffers(table),
+            _ => None,
+        };
+        let tables = uniforms.airs.binding().zip(table);
         if let Some(cache) = ground.cache.and_then(|cache| caches.0.get(cache))
             && let Some(clipmap) = cache.buffers.clipmap.binding()
             && let Some(clearance) = clearance
@@ -205,6 +222,13 @@ pub fn prepare_bind_groups(
                 (6, clearance.buffer().as_entire_binding()),
             ))
             .to_vec();
+            if let Some((uniform, [transmittances, _])) = &tables {
+                let air = DynamicBindGroupEntries::new_with_indices((
+                    (13, uniform.clone()),
+                    (14, transmittances.as_entire_binding()),
+                ));
+                entries.extend_from_slice(&air);
+            }
             let unknown = heat.then(|| ViewTruths::unknown(&device));
             if let Some(unknown) = &unknown {
                 let ViewTruths(truths) = truths.unwrap_or(unknown);
@@ -220,13 +244,32 @@ pub fn prepare_bind_groups(
                 passes.groups[Pass::Upsample as usize] = Some(create(Pass::Upsample, &entries));
             }
         }
-        if ground.sky.is_some()
-            && let Some(sky) = uniforms.skies.binding()
-        {
-            passes.groups[Pass::Sky as usize] = Some(create(
-                Pass::Sky,
-                &DynamicBindGroupEntries::new_with_indices(((0, view), (1, sky), (2, depth.view()))),
-            ));
+        let shared =
+            |uniform| DynamicBindGroupEntries::new_with_indices(((0, view.clone()), (1, uniform), (2, depth.view())));
+        match (&ground.sky, uniforms.gradients.binding()) {
+            (Some(ViewSky::Gradient(_)), Some(gradient)) => {
+                let entries = shared(gradient);
+                for pass in [Pass::Haze, Pass::Sky] {
+                    passes.groups[pass as usize] = Some(create(pass, &entries));
+                }
+            }
+            (Some(ViewSky::Air { .. }), _) => {
+                let (Some((uniform, [transmittances, multiple])), Some(air)) = (&tables, air) else { continue };
+                let (sky, light, through, sampler) = air.drawn();
+                let mut entries = shared(uniform.clone()).to_vec();
+                entries.extend_from_slice(&DynamicBindGroupEntries::new_with_indices((
+                    (3, transmittances.as_entire_binding()),
+                    (4, multiple.as_entire_binding()),
+                    (5, sky.as_entire_binding()),
+                    (6, light),
+                    (7, through),
+                    (8, sampler),
+                )));
+                for pass in [Pass::Veil, Pass::Haze, Pass::Sky] {
+                    passes.groups[pass as usize] = Some(create(pass, &entries));
+                }
+            }
+            _ => {}
         }
     }
 }

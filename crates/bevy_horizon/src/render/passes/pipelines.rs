@@ -5,19 +5,21 @@ use bevy::core_pipeline::tonemapping::{Tonemapping, get_lut_bind_group_layout_en
 use bevy::platform::collections::HashMap;
 use bevy::prelude::*;
 use bevy::render::render_resource::binding_types::{
-    storage_buffer_read_only_sized, texture_2d, texture_depth_2d, texture_depth_2d_multisampled, uniform_buffer,
+    sampler, storage_buffer_read_only_sized, texture_2d, texture_3d, texture_depth_2d, texture_depth_2d_multisampled,
+    uniform_buffer,
 };
 use bevy::render::render_resource::{
     BindGroupLayoutDescriptor, BlendComponent, BlendFactor, BlendOperation, BlendState, CachedRenderPipelineId,
     ColorTargetState, ColorWrites, CompareFunction, DepthStencilState, DynamicBindGroupLayoutEntries, FragmentState,
-    MultisampleState, PipelineCache, RenderPipelineDescriptor, ShaderStages, TextureFormat, TextureSampleType,
-    VertexState,
+    MultisampleState, PipelineCache, RenderPipelineDescriptor, SamplerBindingType, ShaderStages, TextureFormat,
+    TextureSampleType, VertexState,
 };
 use bevy::render::view::ViewUniform;
 use bevy::shader::ShaderDefVal;
 
-use super::super::shaders;
-use super::super::uniforms::{ClipmapUniform, HorizonViewUniform, SkyUniform};
+use super::super::shaders::Source;
+use super::super::uniforms::{AirUniform, ClipmapUniform, GradientUniform, HorizonViewUniform};
+use crate::world::SkyModel;
 
 /// A pass of a view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -26,6 +28,11 @@ pub enum Pass {
     Ground,
     /// The ground, from a picture of lower resolution.
     Upsample,
+    /// What the air takes from what was drawn.
+    Veil,
+    /// What the air adds to what was drawn.
+    Haze,
+    /// The sky, where nothing was.
     Sky,
 }
 
@@ -35,8 +42,15 @@ impl Pass {
         match self {
             Self::Ground => "horizon_ground",
             Self::Upsample => "horizon_upsample",
+            Self::Veil => "horizon_veil",
+            Self::Haze => "horizon_haze",
             Self::Sky => "horizon_sky",
         }
+    }
+
+    /// Whether it is one of the air's.
+    pub const fn is_air(self) -> bool {
+        matches!(self, Self::Veil | Self::Haze | Self::Sky)
     }
 
     /// Its fragment shader's entry point.
@@ -44,7 +58,9 @@ impl Pass {
         match self {
             Self::Ground => "ground",
             Self::Upsample => "upsampled",
-            Self::Sky => "air",
+            Self::Veil => "air_veil",
+            Self::Haze => "air_haze",
+            Self::Sky => "air_sky",
         }
     }
 }
@@ -58,6 +74,8 @@ pub struct PassKey {
     pub tonemapping: Option<Tonemapping>,
     /// Whether the ground's pass is that of a debug view.
     pub heat: bool,
+    /// The model of the air, if there is air.
+    pub air: SkyModel,
 }
 
 /// The pipelines that views asked for, and the layouts of what they bind.
@@ -70,9 +88,10 @@ pub struct PassPipelines {
 impl Default for PassPipelines {
     fn default() -> Self {
         let mut layouts = HashMap::default();
-        for pass in [Pass::Ground, Pass::Upsample, Pass::Sky] {
-            for bits in 0..8 {
-                let variant = Variant { ldr: bits & 1 != 0, multisampled: bits & 2 != 0, heat: bits & 4 != 0 };
+        for pass in [Pass::Ground, Pass::Upsample, Pass::Veil, Pass::Haze, Pass::Sky] {
+            for bits in 0..16 {
+                let bit = |i: u32| bits >> i & 1 != 0;
+                let variant = Variant { ldr: bit(0), multisampled: bit(1), heat: bit(2), air: bit(3) };
                 layouts.insert((pass, variant), new_layout(pass, variant));
             }
         }
@@ -86,15 +105,22 @@ pub struct Variant {
     pub ldr: bool,
     pub multisampled: bool,
     pub heat: bool,
+    /// Whether the air has tables.
+    pub air: bool,
 }
 
 impl PassKey {
     pub fn variant(&self) -> Variant {
-        Variant { ldr: self.tonemapping.is_some(), multisampled: self.samples > 1, heat: self.heat }
+        Variant {
+            ldr: self.tonemapping.is_some(),
+            multisampled: self.samples > 1,
+            heat: self.heat,
+            air: self.air != SkyModel::Gradient,
+        }
     }
 }
 
-fn new_layout(pass: Pass, Variant { ldr, multisampled, heat }: Variant) -> BindGroupLayoutDescriptor {
+fn new_layout(pass: Pass, Variant { ldr, multisampled, heat, air }: Variant) -> BindGroupLayoutDescriptor {
     let view = uniform_buffer::<HorizonViewUniform>(true);
     let read = || storage_buffer_read_only_sized(false, None);
     let mut entries = match pass {
@@ -110,26 +136,41 @@ fn new_layout(pass: Pass, Variant { ldr, multisampled, heat }: Variant) -> BindG
                 (6, read()),
             ),
         ),
-        Pass::Sky => DynamicBindGroupLayoutEntries::new_with_indices(
+        Pass::Veil | Pass::Haze | Pass::Sky => DynamicBindGroupLayoutEntries::new_with_indices(
             ShaderStages::FRAGMENT,
             (
                 (0, view),
-                (1, uniform_buffer::<SkyUniform>(true)),
+                (1, if air { uniform_buffer::<AirUniform>(true) } else { uniform_buffer::<GradientUniform>(true) }),
                 (2, if multisampled { texture_depth_2d_multisampled() } else { texture_depth_2d() }),
             ),
         ),
     };
+    if air && pass.is_air() {
+        let volume = || texture_3d(TextureSampleType::Float { filterable: true });
+        let linear = sampler(SamplerBindingType::Filtering);
+        entries = entries.extend_with_indices((
+            (3, read()),
+            (4, read()),
+            (5, read()),
+            (6, volume()),
+            (7, volume()),
+            (8, linear),
+        ));
+    }
     if pass == Pass::Upsample {
         let colour = texture_2d(TextureSampleType::Float { filterable: false });
         entries = entries.extend_with_indices(((7, colour), (8, texture_depth_2d())));
     }
-    if heat && pass != Pass::Sky {
+    if heat && !pass.is_air() {
         entries = entries.extend_with_indices(((9, read()),));
     }
     if ldr {
         let [texture, sampler] = get_lut_bind_group_layout_entries();
         entries =
             entries.extend_with_indices(((10, uniform_buffer::<ViewUniform>(true)), (11, texture), (12, sampler)));
+    }
+    if air && !pass.is_air() {
+        entries = entries.extend_with_indices(((13, uniform_buffer::<AirUniform>(true)), (14, read())));
     }
     BindGroupLayoutDescriptor::new("horizon_pass", &entries)
 }
@@ -166,11 +207,14 @@ impl PassPipelines {
             return *id;
         }
         let variant = key.variant();
-        let shader = match pass {
-            Pass::Ground => shaders::geometry(variant.ldr, variant.heat),
-            Pass::Upsample => shaders::upsample(variant.ldr, variant.heat),
-            Pass::Sky => shaders::sky(variant.ldr, variant.multisampled),
+        let Variant { ldr, multisampled, heat, air } = variant;
+        let source = match pass {
+            Pass::Ground => Source::Geometry { ldr, heat, air },
+            Pass::Upsample => Source::Upsample { ldr, heat, air },
+            Pass::Veil | Pass::Haze | Pass::Sky if air => Source::Air { model: key.air, ldr, multisampled },
+            Pass::Veil | Pass::Haze | Pass::Sky => Source::Gradient { ldr, multisampled },
         };
+        let shader = source.handle();
         let defs = key.tonemapping.map(tonemapping_defs).unwrap_or_default();
         let id = cache.queue_render_pipeline(RenderPipelineDescriptor {
             label: Some(pass.label().into()),
@@ -181,10 +225,15 @@ impl PassPipelines {
                 entry_point: Some("fullscreen".into()),
                 ..default()
             },
-            depth_stencil: (pass != Pass::Sky).then(|| DepthStencilState {
+            depth_stencil: Some(DepthStencilState {
                 format: CORE_3D_DEPTH_FORMAT,
-                depth_write_enabled: Some(true),
-                depth_compare: Some(CompareFunction::GreaterEqual),
+                depth_write_enabled: Some(!pass.is_air()),
+                // The air's fragments lie at infinity, where depth is 0.
+                depth_compare: Some(match pass {
+                    Pass::Ground | Pass::Upsample => CompareFunction::GreaterEqual,
+                    Pass::Veil | Pass::Haze => CompareFunction::Less,
+                    Pass::Sky => CompareFunction::Equal,
+                }),
                 stencil: default(),
                 bias: default(),
             }),
@@ -195,7 +244,12 @@ impl PassPipelines {
                 entry_point: Some(pass.entry().into()),
                 targets: vec![Some(ColorTargetState {
                     format: key.format,
-                    blend: (pass == Pass::Sky).then_some(OVER),
+                    blend: match pass {
+                        Pass::Ground | Pass::Upsample => None,
+                        Pass::Veil => Some(THROUGH),
+                        Pass::Haze => Some(OVER),
+                        Pass::Sky => None,
+                    },
                     write_mask: ColorWrites::ALL,
                 })],
             }),
@@ -205,6 +259,20 @@ impl PassPipelines {
         id
     }
 }
+
+/// What was drawn, as far as the air lets each channel of it through.
+const THROUGH: BlendState = BlendState {
+    color: BlendComponent {
+        src_factor: BlendFactor::Zero,
+        dst_factor: BlendFactor::Src,
+        operation: BlendOperation::Add,
+    },
+    alpha: BlendComponent {
+        src_factor: BlendFactor::Zero,
+        dst_factor: BlendFactor::One,
+        operation: BlendOperation::Add,
+    },
+};
 
 /// The air over what is behind it: its own light, premultiplied, and the rest shines through.
 const OVER: BlendState = {

@@ -1,6 +1,6 @@
 // A view of the world: its rays, and what lights it. Nothing in here is an absolute coordinate.
 
-struct View {
+struct HorizonView {
     view_from_clip: mat4x4<f32>,
     clip_from_view: mat4x4<f32>,
     // The columns of the camera's rotation.
@@ -11,7 +11,7 @@ struct View {
     eye: vec3<f32>,
     // Origin and size, in pixels of the target.
     viewport: vec4<f32>,
-    // Towards the sun.
+    // Towards the sun, while any of its disc stands over the level.
     sun_direction: vec3<f32>,
     exposure: f32,
     // Illuminance of the sun, in lux; luminance of the ambient light, in cd/m².
@@ -28,6 +28,8 @@ struct View {
     columns: vec3<u32>,
     // Its rings: the radius that the first would have, and the binary logarithm of the ratio of two.
     rings: vec2<f32>,
+    // Towards the sun, wherever it stands.
+    sun_towards: vec3<f32>,
 }
 
 // Slopes in a column of the clearance table.

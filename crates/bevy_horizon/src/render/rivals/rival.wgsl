@@ -12,7 +12,7 @@ struct Rival {
     numbers: vec4<f32>,
 }
 
-@group(0) @binding(0) var<uniform> view: View;
+@group(0) @binding(0) var<uniform> view: HorizonView;
 @group(0) @binding(1) var<uniform> rival: Rival;
 
 fn ground(p: vec2<f32>) -> f32 {

@@ -1,0 +1,39 @@
+// What lights the ground under air: the sun, as far as the air over each point lets it through, so that peaks still glow when the
+// valleys are dark; and the sky at the camera, by its moments. Needs air_view.wgsl and horizon_light's transmittance.wgsl.
+
+@group(0) @binding(13) var<uniform> air: AirView;
+@group(0) @binding(14) var<storage, read> transmittances: array<vec4<f32>>;
+
+fn transmittance_texel(x: u32, y: u32) -> vec3<f32> {
+    return transmittances[y * TRANSMITTANCE_SIZE.x + x].rgb;
+}
+
+fn sunlight_at(p: vec3<f32>) -> vec3<f32> {
+    if (air.own_sun == 0u) {
+        return view.sun;
+    }
+    // The vertical turns as one goes over the planet.
+    let medium = air.medium;
+    let h = clamp(p.y - air.datum, 0.0, medium.height);
+    let up = normalize(vec3<f32>(p.x - view.eye.x, medium.radius + h, p.z - view.eye.z));
+    let mu_s = clamp(dot(up, air.sun), -1.0, 1.0);
+    let visible = sun_visible(air.disc, sun_above_horizon(mu_s, h, medium.radius));
+    if (all(visible <= vec3<f32>(0.0))) {
+        return vec3<f32>(0.0);
+    }
+    let through = transmittance_to_top(medium, h, max(mu_s, horizon_cosine(medium.radius, h)));
+    return air_rgb(air, medium.irradiance * through * visible);
+}
+
+fn skylight_on(normal: vec3<f32>) -> vec3<f32> {
+    if (air.own_sun == 0u) {
+        return view.ambient * mix(0.35, 1.0, 0.5 + 0.5 * normal.y);
+    }
+    // Irradiance of a cosine lobe over π, as horizon_light's moments.rs has it.
+    let above = max(normal.y, 0.0) * max(normal.y, 0.0);
+    let level = max(length(air.sun.xz), 1e-6);
+    let y = harmonics(normal.y, dot(normal.xz, air.sun.xz) / level);
+    let m = air.diffuse;
+    let sum = m[0] * y[0] + 0.66666667 * (m[1] * y[1] + m[2] * y[2]) + (0.25 + 0.05 * above) * (m[3] * y[3] + m[4] * y[4] + m[5] * y[5]);
+    return air_rgb(air, max(sum, vec3<f32>(0.0))) + air.night;
+}
