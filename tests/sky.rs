@@ -107,7 +107,7 @@ fn the_sun_s_light_is_what_the_air_leaves_of_it() {
         stage.frame();
         stage.frame();
         let world = stage.world();
-        let light = world.query::<&DirectionalLight>().single(world).expect("one sun").clone();
+        let light = *world.query::<&DirectionalLight>().single(world).expect("one sun");
         let colour = light.color.to_linear();
         (
             Vec3::new(colour.red, colour.green, colour.blue) * light.illuminance,

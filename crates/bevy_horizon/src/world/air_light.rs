@@ -14,6 +14,7 @@ use super::{Atmosphere, ParamError, SkyModel, check_params};
 /// What [`Atmosphere`] became. After a bad edit the last good one stays.
 #[derive(Component, Clone, Debug)]
 pub struct CompiledAtmosphere {
+    #[cfg_attr(not(feature = "render"), expect(dead_code, reason = "only the picture has light"))]
     pub(crate) atmosphere: Atmosphere,
     /// The diffuse light of its medium; none under a gradient.
     pub(crate) light: Option<Arc<AirLight>>,
@@ -23,7 +24,9 @@ pub struct CompiledAtmosphere {
 #[derive(Debug)]
 pub(crate) struct AirLight {
     medium: Medium,
+    #[cfg_attr(not(feature = "render"), expect(dead_code, reason = "only the picture has light"))]
     pub air: Air<f32>,
+    #[cfg_attr(not(feature = "render"), expect(dead_code, reason = "only the picture has light"))]
     pub moments: Moments<f32>,
 }
 
@@ -65,7 +68,8 @@ pub(crate) fn compile_atmospheres(
         let medium = atmosphere.medium;
         let last = old.and_then(|old| old.light.clone());
         let light = match last {
-            _ if atmosphere.model == SkyModel::Gradient => None,
+            // A server has no picture to light.
+            _ if atmosphere.model == SkyModel::Gradient || cfg!(not(feature = "render")) => None,
             Some(last) => {
                 if last.medium != medium {
                     let task = AsyncComputeTaskPool::get().spawn(async move { AirLight::new(medium) });

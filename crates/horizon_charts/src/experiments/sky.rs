@@ -18,7 +18,6 @@ use crate::context::Context;
 use crate::experiment::{ChartsError, Experiment, NamedChart};
 use crate::measure::samples::median;
 use crate::plot::{Axis, Dot, Group, Scatter};
-use crate::readme::short;
 use crate::store::Row;
 
 /// The experiment.
@@ -323,7 +322,7 @@ pub fn default_errors(ctx: &Context, step: usize) -> Result<Vec<(String, f64)>, 
 
 fn root_mean_square<'a>(errors: impl IntoIterator<Item = &'a f64>) -> f64 {
     let (sum, count) = errors.into_iter().fold((0.0, 0.0), |(sum, count), error| (sum + error * error, count + 1.0));
-    (sum / count as f64).sqrt()
+    (sum / count).sqrt()
 }
 
 /// What each model adds to a frame while the sun turns, and while it stands: frames of all models by turns.
@@ -433,8 +432,8 @@ impl Experiment for Sky {
         let rows = ctx.rows::<SkyRow>(TABLE)?;
         let of = |model: Model, view: &str| rows.iter().rev().find(|row| row.model == model.name() && row.view == view);
         let (full, bevy) = (Model::Own(SkyModel::Full), Model::Bevy { published: false });
-        let rmse = |model, view: &str| of(model, view).map(|row| short(100.0 * row.rmse_rel));
-        let share = |ms: fn(&SkyRow) -> f64| Some(short(ms(of(full, "65° ground")?) / ms(of(bevy, "65° ground")?)));
+        let rmse = |model, view: &str| of(model, view).map(|row| 100.0 * row.rmse_rel);
+        let share = |ms: fn(&SkyRow) -> f64| Some(ms(of(full, "65° ground")?) / ms(of(bevy, "65° ground")?));
         let published = Model::Bevy { published: true };
         let compared = json!({
             "full_percent_65": rmse(full, "65° ground"),
