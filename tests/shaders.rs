@@ -69,9 +69,10 @@ impl Uses {
 fn translate(name: &str, source: &str) -> Uses {
     let module =
         naga::front::wgsl::parse_str(source).unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(source)));
-    let info = Validator::new(ValidationFlags::all(), Capabilities::SHADER_FLOAT16_IN_FLOAT32)
-        .validate(&module)
-        .unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(source)));
+    let info =
+        Validator::new(ValidationFlags::all(), Capabilities::default() | Capabilities::SHADER_FLOAT16_IN_FLOAT32)
+            .validate(&module)
+            .unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(source)));
     assert!(!module.entry_points.is_empty(), "{name} has no entry point");
 
     let words = spv::write_vec(&module, &info, &spv::Options::default(), None).expect(name);
