@@ -10,7 +10,7 @@ use horizon_light::medium::{Medium, WAVELENGTHS};
 use horizon_light::reference::Ray;
 use horizon_light::reference::monte_carlo::Sky;
 
-/// Altitude in metres and the sun's zenith angle in degrees (issue 4).
+/// Altitude in metres and the sun's zenith angle in degrees.
 const CASES: [(f64, f64); 6] = [(2.0, 30.0), (2.0, 65.0), (2.0, 80.0), (2.0, 88.0), (2.0, 91.5), (8_000.0, 65.0)];
 
 /// Zenith angles of the views, in degrees: closer towards the horizon, where the sky changes most. 0 is left out, as

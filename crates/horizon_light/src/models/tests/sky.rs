@@ -9,7 +9,7 @@ use crate::models::sky_view::SkyView;
 use crate::reference::Ray;
 use crate::reference::monte_carlo;
 
-/// The sun's zenith angle in degrees, the altitude in metres, and the RMS relative error that issue 4 allows the default model.
+/// The sun's zenith angle in degrees, the altitude in metres, and the RMS relative error that the default model may have.
 const CASES: [(f64, f64, f64); 6] =
     [(30.0, 2.0, 0.02), (65.0, 2.0, 0.02), (80.0, 2.0, 0.03), (88.0, 2.0, 0.05), (91.5, 2.0, 0.20), (65.0, 8e3, 0.03)];
 
