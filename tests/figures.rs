@@ -45,7 +45,8 @@ fn the_summary_keeps_what_it_promises() {
         let ratio = summary["march_speedup_at_equal_error"][view.name].as_f64();
         assert!(ratio.is_some_and(|ratio| ratio >= 10.0), "{}: {ratio:?} times as fast", view.name);
     }
-    // Two pixels of two million, both of seed 127, whose ground is rougher than a texel of so small a picture.
+    // Two pixels of two million, both of seed 127: its ground is rougher than a texel of the default budget, and at half of it none is
+    // missed.
     let cameras = &summary["cameras"];
     assert!(cameras["missed"].as_u64().zip(cameras["false"].as_u64()).is_some_and(|(a, b)| a <= 2 && b == 0));
     assert!(cameras["cameras"].as_u64() >= Some(200));

@@ -8,6 +8,7 @@ use horizon_light::medium::Medium;
 use horizon_light::models::air::Air;
 use horizon_light::models::moments::Moments;
 use horizon_light::models::transmittance::Transmittance;
+use horizon_light::spectrum::Star;
 
 use super::{Atmosphere, ParamError, SkyModel, check_params};
 
@@ -28,6 +29,9 @@ pub(crate) struct AirLight {
     pub air: Air<f32>,
     #[cfg_attr(not(feature = "render"), expect(dead_code, reason = "only the picture has light"))]
     pub moments: Moments<f32>,
+    /// From values at the medium's wavelengths to linear sRGB: integrals over the spectrum, and so not for every frame.
+    #[cfg_attr(not(feature = "render"), expect(dead_code, reason = "only the picture has light"))]
+    pub to_rgb: [[f64; 3]; 3],
 }
 
 impl AirLight {
@@ -35,7 +39,8 @@ impl AirLight {
         let air = Air::new(&medium);
         let transmittance = Transmittance::new(&air);
         let moments = Moments::new(&air, &transmittance);
-        Self { medium, air, moments }
+        let to_rgb = Star::new(medium.irradiance).matrix();
+        Self { medium, air, moments, to_rgb }
     }
 }
 

@@ -19,6 +19,11 @@ use crate::camera::HorizonCamera;
 /// Illuminance of a surface that faces the sun at altitude `h` in metres, in lux, linear sRGB, where the sun stands `mu_s` from the
 /// vertical (a cosine): through the air, and as far as the disc stands over the horizon.
 pub fn illuminance(medium: &Medium, h: f64, mu_s: f64) -> [f64; 3] {
+    rgb(&Star::new(medium.irradiance).matrix(), irradiance(medium, h, mu_s))
+}
+
+/// What is left of the sun's irradiance at the medium's wavelengths.
+fn irradiance(medium: &Medium, h: f64, mu_s: f64) -> [f64; 3] {
     let h = h.max(0.0);
     let disc = SunDisc::sun(medium.irradiance, medium.sun_radius);
     let visible = disc.visible(above_horizon(mu_s, h, medium.radius));
@@ -28,8 +33,12 @@ pub fn illuminance(medium: &Medium, h: f64, mu_s: f64) -> [f64; 3] {
     } else {
         [1.0; 3]
     };
-    let left: [f64; 3] = core::array::from_fn(|k| medium.irradiance[k] * through[k] * visible[k]);
-    Star::new(medium.irradiance).matrix().map(|row| (0..3).map(|k| row[k] * left[k]).sum::<f64>().max(0.0))
+    core::array::from_fn(|k| medium.irradiance[k] * through[k] * visible[k])
+}
+
+/// Linear sRGB, in photometric units, of values at the medium's wavelengths. What lies outside of it is brought to its edge.
+fn rgb(matrix: &[[f64; 3]; 3], values: [f64; 3]) -> [f64; 3] {
+    matrix.map(|row| (0..3).map(|k| row[k] * values[k]).sum::<f64>().max(0.0))
 }
 
 /// A camera's altitude over the ground of an atmosphere whose entity is at `datum`, in metres; at least 0.
@@ -66,12 +75,13 @@ pub(crate) fn shine(
     let mut sky = Vec3::ZERO;
     for (mut sun, transform) in &mut suns {
         let mu_s = transform.back().y.clamp(-1.0, 1.0);
-        let (color, illuminance) = apart(DVec3::from_array(illuminance(medium, h, mu_s.into())).as_vec3());
+        let (color, illuminance) =
+            apart(DVec3::from_array(rgb(&light.to_rgb, irradiance(medium, h, mu_s.into()))).as_vec3());
         if sun.color != color || sun.illuminance != illuminance {
             (sun.color, sun.illuminance) = (color, illuminance);
         }
         let diffuse = light.moments.irradiance(&light.air, h as f32, mu_s, 1.0, mu_s);
-        sky += to_rgb(medium, diffuse) / PI;
+        sky += DVec3::from_array(rgb(&light.to_rgb, diffuse.map(f64::from))).as_vec3() / PI;
     }
     if let Some(mut ambient) = ambient.filter(|_| !suns.is_empty()) {
         let (color, brightness) = apart(sky + compiled.atmosphere.night);
@@ -79,11 +89,4 @@ pub(crate) fn shine(
             (ambient.color, ambient.brightness) = (color, brightness);
         }
     }
-}
-
-/// From values at the medium's wavelengths to linear sRGB, in photometric units.
-fn to_rgb(medium: &Medium, values: [f32; 3]) -> Vec3 {
-    let rows = Star::new(medium.irradiance).matrix();
-    let rgb = rows.map(|row| (0..3).map(|k| row[k] * f64::from(values[k])).sum::<f64>().max(0.0) as f32);
-    Vec3::from_array(rgb)
 }
