@@ -141,6 +141,9 @@ pub struct HorizonViewUniform {
     pub columns: UVec3,
     pub rings: Vec2,
     pub sun_towards: Vec3,
+    pub self_shadow: u32,
+    pub clip_from_offset: Mat4,
+    pub previous_clip_from_offset: Mat4,
 }
 
 /// `GradientAir` of `sky_gradient.wgsl`.

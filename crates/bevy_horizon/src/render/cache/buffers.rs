@@ -16,17 +16,17 @@ use super::CachePipelines;
 use super::clipmap::{Clipmap, DrawnLevel, TILE, TILE_BOUNDS, Tile, Work, place_of};
 use crate::world::TerrainFields;
 
-/// Bytes of a tile: height, looks, bounds, and light, a byte for 2 × 2 texels.
-pub const TILE_BYTES: u64 = 4096 * 4 + LOOK_BYTES + TILE_BOUNDS * 4 + 1024;
-/// Bytes of a tile's looks, the largest of the buffers: for each pair of texels two colours and two normals.
-pub const LOOK_BYTES: u64 = 4096 * 6;
+/// Bytes of a tile: height, looks and bounds.
+pub const TILE_BYTES: u64 = 4096 * 4 + LOOK_BYTES + TILE_BOUNDS * 4;
+/// Bytes of a tile's looks, the largest of the buffers: for each pair of texels two surfaces and two normals, and for each 2 × 2 of them
+/// two bytes of light.
+pub const LOOK_BYTES: u64 = 4096 * 6 + 1024 * 2;
 
 /// What the passes read.
 pub struct CacheBuffers {
     pub heights: Buffer,
     pub bounds: Buffer,
     pub looks: Buffer,
-    pub lights: Buffer,
     pub clipmap: UniformBuffer<ClipmapUniform>,
     layers: Buffer,
     numbers: Buffer,
@@ -60,7 +60,6 @@ impl CacheBuffers {
             heights: stored("horizon_heights", texels * 4),
             bounds: stored("horizon_bounds", TILE_BOUNDS * 4),
             looks: stored("horizon_looks", LOOK_BYTES),
-            lights: stored("horizon_lights", texels / 4),
             clipmap: UniformBuffer::default(),
             layers,
             numbers,
@@ -218,7 +217,7 @@ impl FrameJobs {
                     buffers.bounds.as_entire_binding(),
                     jobs.as_entire_binding(),
                     sun.as_entire_binding(),
-                    buffers.lights.as_entire_binding(),
+                    buffers.looks.as_entire_binding(),
                 )),
             ));
         }

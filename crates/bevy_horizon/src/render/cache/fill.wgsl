@@ -38,8 +38,8 @@ fn fill(@builtin(global_invocation_id) id: vec3<u32>, @builtin(workgroup_id) gro
     let index = job.tile * 4096u + id.y * 64u + id.x;
     heights[index] = ground.x;
     let colour = material_at(job.anchor, q, job.texel, cutoff, ground);
-    // Three words a pair of texels: two colours, then both normals.
-    let pair = 3u * (index >> 1u);
+    // Three words a pair of texels: two surfaces, then both normals. A tile's looks are 6656 words, see surface.wgsl.
+    let pair = job.tile * 6656u + 3u * ((index & 4095u) >> 1u);
     looks[pair + (index & 1u)] = pack4x8unorm(colour);
     normals[lane] = pack_normal(ground.yz, id.xy);
     workgroupBarrier();
