@@ -314,13 +314,18 @@ fn apply_worlds(
                 let [r, g, b] = illuminance(&air.medium, 0.0, sun.direction().y.into()).map(|x| x as f32);
                 let brightest = r.max(g).max(b).max(1e-9);
                 let color = Color::linear_rgb(r / brightest, g / brightest, b / brightest);
-                let light = DirectionalLight { color, illuminance: brightest, ..default() };
+                let light =
+                    DirectionalLight { color, illuminance: brightest, shadow_maps_enabled: true, ..default() };
                 commands.spawn((WorldSun, Sunlight, light, sun.transform(), ChildOf(owner)));
                 continue;
             }
             let [r, g, b] = sun.colour;
-            let light =
-                DirectionalLight { color: Color::linear_rgb(r, g, b), illuminance: sun.illuminance, ..default() };
+            let light = DirectionalLight {
+                color: Color::linear_rgb(r, g, b),
+                illuminance: sun.illuminance,
+                shadow_maps_enabled: true,
+                ..default()
+            };
             commands.spawn((WorldSun, light, sun.transform(), ChildOf(owner)));
             commands.insert_resource(GlobalAmbientLight {
                 color: Color::linear_rgb(0.62, 0.78, 1.0),
