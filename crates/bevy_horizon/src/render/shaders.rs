@@ -167,9 +167,9 @@ pub fn add_shaders(shaders: &mut Assets<Shader>) {
     }
 }
 
-/// The fill pass behind a field's kernel.
+/// The fill pass behind the kernel of a terrain's height and material.
 pub fn fill_source(kernel: &str) -> String {
-    [kernel, include_str!("cache/material.wgsl"), include_str!("cache/fill.wgsl")].join("\n")
+    [kernel, include_str!("cache/fill.wgsl")].join("\n")
 }
 
 fn present(ldr: bool) -> &'static str {
@@ -215,7 +215,7 @@ fn air_model(model: SkyModel) -> String {
 }
 
 /// Every shader of this crate that stands without Bevy's imports, by name: for tests that translate them to other
-/// shading languages. `kernel` is a field's, from [`horizon_field::field::kernel`].
+/// shading languages. `kernel` is a terrain's, from [`CompiledMaterial::kernel`](horizon_field::material::CompiledMaterial::kernel).
 pub fn shader_sources(kernel: &str) -> Vec<(&'static str, String)> {
     let alone = |source: &Source| {
         use Source::{Air, Geometry, Gradient, Upsample};

@@ -21,8 +21,10 @@ fn stored_normal(texel: u32) -> vec3<f32> {
     return vec3<f32>(xz.x, sqrt(max(1.0 - dot(xz, xz), 1e-4)), xz.y);
 }
 
+// The albedo's square root, and gloss: the top five bits are the roughness.
 fn stored_colour(texel: u32) -> vec4<f32> {
-    return unpack4x8unorm(looks[3u * (texel >> 1u) + (texel & 1u)]);
+    let word = looks[3u * (texel >> 1u) + (texel & 1u)];
+    return vec4<f32>(unpack4x8unorm(word).rgb, 1.0 - f32(word >> 27u) / 31.0);
 }
 
 fn light_at(l: Level, cell: vec2<i32>) -> f32 {
