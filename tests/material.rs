@@ -4,13 +4,12 @@ use bevy::prelude::*;
 use bevy::render::RenderApp;
 use bevy::render::render_resource::PipelineCache;
 use bevy_horizon::prelude::*;
-use bevy_horizon::world::{
-    CurvatureRule, HeightRule, MaskRule, MaterialLayer, NoiseLayer, NoiseRule, SlopeRule, StrataRule, Surface,
-};
+use bevy_horizon::world::{CurvatureRule, HeightRule, NoiseLayer};
 use bevy_horizon_workspace::stage::Stage;
 use horizon_field::Compiled;
 use horizon_field::field::arbitrary::{Pictures, Random};
-use horizon_field::field::{Contents, Edge, Fractal, ImageField};
+use horizon_field::field::{Contents, Fractal};
+use horizon_field::material::arbitrary::all_rules;
 use horizon_field::material::{CompiledMaterial, GroundPoint, Look};
 
 use crate::device;
@@ -40,63 +39,6 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     looks[2u * id.x + 1u] = vec4<u32>(bitcast<u32>(look.reflectance), material_packed(look, vec2<u32>(id.x & 63u, id.x >> 6u)), 0u, 0u);
 }
 ";
-
-/// Every rule, alone and with others; noises of their own and shared ones; masks by image and by noise.
-fn all_rules() -> TerrainMaterial {
-    let surface = |colour, roughness, reflectance| Surface { colour, roughness, reflectance, ..default() };
-    let image =
-        ImageField { path: "large".into(), size: [3000.0; 2], low: 0.0, high: 1.0, edge: Edge::Mirror, ..default() };
-    let own = NoiseLayer { wavelength: 500.0, amplitude: 80.0, octaves: 4.0, seed: 21 };
-    let wild = Fractal { wavelength: 900.0, amplitude: 1.0, octaves: 4.0, seed: 22, ..default() };
-    TerrainMaterial {
-        layers: vec![
-            MaterialLayer {
-                surface: surface([0.9, 0.1, 0.1], 0.3, 0.9),
-                height: Some(HeightRule {
-                    low: -100.0,
-                    high: 300.0,
-                    soft: 30.0,
-                    noise: Some(own.clone()),
-                    ..default()
-                }),
-                ..default()
-            },
-            MaterialLayer {
-                surface: Surface {
-                    second: Some([0.8, 0.1, 0.9]),
-                    tint: Some(own),
-                    blend: 20.0,
-                    ..surface([0.1, 0.9, 0.1], 0.9, 0.1)
-                },
-                slope: Some(SlopeRule { low: 0.6, high: 0.9, shift: 0.1, ..default() }),
-                ..default()
-            },
-            MaterialLayer {
-                surface: surface([0.1, 0.1, 0.9], 0.6, 0.3),
-                curvature: Some(CurvatureRule { low: 0.05, ..default() }),
-                ..default()
-            },
-            MaterialLayer {
-                surface: surface([0.9, 0.9, 0.1], 0.2, 0.7),
-                noise: Some(NoiseRule { low: 0.05, high: 0.3, ..default() }),
-                ..default()
-            },
-            MaterialLayer {
-                surface: surface([0.1, 0.9, 0.9], 0.7, 0.0),
-                mask: Some(MaskRule { field: image.into(), low: 0.6, ..default() }),
-                strata: Some(StrataRule { thickness: 30.0, ..default() }),
-                ..default()
-            },
-            MaterialLayer {
-                surface: surface([0.05, 0.05, 0.05], 0.1, 1.0),
-                mask: Some(MaskRule { field: wild.into(), low: 0.2, high: 0.4, soft: 0.05 }),
-                height: Some(HeightRule { low: 100.0, soft: 50.0, ..default() }),
-                ..default()
-            },
-        ],
-        ..default()
-    }
-}
 
 /// A point: which place, where from it, and the texel.
 type Point = (usize, [f32; 2], f32);
@@ -149,7 +91,7 @@ fn steps(a: u32, b: u32) -> u32 {
 
 #[test]
 fn materials_agree() {
-    let hills = Field::Fractal(Fractal { wavelength: 3000.0, amplitude: 1800.0, octaves: 12.0, seed: 8, ..default() });
+    let hills = Field::Fractal(Fractal { wavelength: 9000.0, amplitude: 4000.0, octaves: 12.0, seed: 8, ..default() });
     let height = hills.compile::<2>(&Pictures).unwrap();
     for (name, material) in [("the default", TerrainMaterial::default()), ("all rules", all_rules())] {
         let material = material.compile(&Pictures).unwrap();
@@ -179,7 +121,7 @@ fn materials_agree() {
         assert!(worst <= TOLERANCE, "{name}: {worst} apart");
         assert!(packed <= 1, "{name}: {packed} steps apart when packed");
         let layers = if name == "all rules" { 7 } else { 6 };
-        assert!(seen[..layers].iter().all(|share| *share > 0.5), "{name}: every layer must show somewhere: {seen:?}");
+        assert!(seen[..layers].iter().all(|share| *share > 0.2), "{name}: every layer must show somewhere: {seen:?}");
     }
 }
 

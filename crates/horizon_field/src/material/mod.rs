@@ -11,6 +11,9 @@ pub mod eval;
 pub mod nodes;
 
 mod resolve;
+
+#[doc(hidden)]
+pub mod arbitrary;
 #[cfg(test)]
 mod tests;
 

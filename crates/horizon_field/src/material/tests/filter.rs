@@ -1,7 +1,8 @@
 //! What a texel holds is the mean of its ground: shares stay from afar, edges soften, and nothing shows steps.
 
-use crate::field::arbitrary::Random;
+use crate::field::arbitrary::{Pictures, Random};
 use crate::field::{Compiled, Field, Fractal, NoImages, Noise};
+use crate::material::arbitrary::all_rules;
 use crate::material::compile::NOISE_VARIANCE;
 use crate::material::{
     CompiledMaterial, GroundPoint, HeightRule, Look, MaterialLayer, NoiseLayer, NoiseRule, StrataRule, Surface,
@@ -144,26 +145,30 @@ fn shares_are_whole() {
 /// Single precision, as the device computes, against double precision, at places far from the origin.
 #[test]
 fn single_precision_is_enough() {
-    let material = TerrainMaterial::default().compile(&NoImages).unwrap();
-    let hills = plane(Field::from(Fractal { amplitude: 2500.0, ..Fractal::default() }));
-    let mut random = Random::new(7);
-    let mut worst = 0.0f64;
-    for metres in [[0.0; 3], [1e6, 0.0, -1e6], [-1e9, 0.0, 1e9]] {
-        let place = Place::from_metres(metres);
-        let (anchors, places) = (hills.anchor(&place), material.anchor(&place));
-        for texel in [0.25f32, 4.0, 64.0] {
-            for _ in 0..1000 {
-                let q = [(); 2].map(|()| random.within(0.0, 64.0 * f64::from(texel)) as f32);
-                let single = material.look(&places, &GroundPoint { height: &hills, anchors: &anchors, q, texel });
-                let (q, texel) = (q.map(f64::from), f64::from(texel));
-                let double = material.look(&places, &GroundPoint { height: &hills, anchors: &anchors, q, texel });
-                let apart = (0..3).map(|k| (f64::from(single.albedo[k]) - double.albedo[k]).abs()).fold(0.0, f64::max);
-                worst = worst.max(apart).max((f64::from(single.roughness) - double.roughness).abs());
+    let hills = plane(Field::from(Fractal { wavelength: 9000.0, amplitude: 4000.0, seed: 8, ..Fractal::default() }));
+    for (material, layers) in [(TerrainMaterial::default(), 6), (all_rules(), 7)] {
+        let material = material.compile(&Pictures).unwrap();
+        let mut random = Random::new(4);
+        let (mut worst, mut seen) = (0.0f64, [0.0f64; 17]);
+        for metres in [[0.0; 3], [1e6, 0.0, -1e6], [-1e9, 0.0, 1e9]] {
+            let place = Place::from_metres(metres);
+            let (anchors, places) = (hills.anchor(&place), material.anchor(&place));
+            for texel in [0.25f32, 2.0, 32.0, 1024.0] {
+                for _ in 0..512 {
+                    let q = [(); 2].map(|()| random.within(0.0, 64.0 * f64::from(texel)) as f32);
+                    let single = material.look(&places, &GroundPoint { height: &hills, anchors: &anchors, q, texel });
+                    let (q, texel) = (q.map(f64::from), f64::from(texel));
+                    let double = material.look(&places, &GroundPoint { height: &hills, anchors: &anchors, q, texel });
+                    let apart = (0..3).map(|k| (f64::from(single.albedo[k]) - double.albedo[k]).abs());
+                    worst = apart.fold(worst, f64::max).max((f64::from(single.roughness) - double.roughness).abs());
+                    (0..17).for_each(|i| seen[i] = seen[i].max(double.shares[i]));
+                }
             }
         }
+        println!("f32 is {worst:.1e} off f64; the layers show up to {seen:.2?}");
+        assert!(worst < 1e-3, "{worst}");
+        assert!(seen[..layers].iter().all(|most| *most > 0.2), "every layer shows somewhere: {seen:?}");
     }
-    println!("f32 is {worst:.1e} off f64");
-    assert!(worst < 1e-3, "{worst}");
 }
 
 /// Thirty-two steps of roughness over a kilometre of smooth ground: rounded to the nearest, each is a line that shows.
