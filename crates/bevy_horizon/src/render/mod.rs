@@ -72,7 +72,10 @@ impl Plugin for HorizonRenderPlugin {
             .init_resource::<air::AirTables>()
             .init_resource::<air::AirPipelines>()
             .init_resource::<view::HorizonViews>()
-            .add_systems(ExtractSchedule, ((extract::extract_world, extract::extract_cameras).chain(), truth::extract_truths))
+            .add_systems(
+                ExtractSchedule,
+                ((extract::extract_world, extract::extract_cameras).chain(), truth::extract_truths),
+            )
             .add_systems(
                 Render,
                 (

@@ -65,7 +65,8 @@ const EITHER: [bool; 2] = [false, true];
 impl Source {
     /// All of them.
     fn all() -> Vec<Self> {
-        let mut all = vec![Self::Pyramid, Self::Light, Self::Clearance, Self::Cast, Self::Transmittance, Self::Isotropic];
+        let mut all =
+            vec![Self::Pyramid, Self::Light, Self::Clearance, Self::Cast, Self::Transmittance, Self::Isotropic];
         all.extend(EITHER.map(|first| Self::Moments { first }));
         all.extend(MODELS.map(|model| Self::ViewTables { model }));
         for a in EITHER {
@@ -178,9 +179,9 @@ pub fn add_shaders(shaders: &mut Assets<Shader>) {
     }
 }
 
-/// The fill pass behind a field's kernel.
+/// The fill pass behind the kernel of a terrain's height and material.
 pub fn fill_source(kernel: &str) -> String {
-    [kernel, include_str!("cache/material.wgsl"), include_str!("cache/fill.wgsl")].join("\n")
+    [kernel, include_str!("cache/fill.wgsl")].join("\n")
 }
 
 fn present(ldr: bool) -> &'static str {
@@ -249,7 +250,7 @@ fn air_model(model: SkyModel) -> String {
 }
 
 /// Every shader of this crate that stands without Bevy's imports, by name: for tests that translate them to other
-/// shading languages. `kernel` is a field's, from [`horizon_field::field::kernel`].
+/// shading languages. `kernel` is a terrain's, from [`CompiledMaterial::kernel`](horizon_field::material::CompiledMaterial::kernel).
 pub fn shader_sources(kernel: &str) -> Vec<(&'static str, String)> {
     let alone = |source: &Source| {
         use Source::{Air, Gradient, Heat, Shade};

@@ -16,7 +16,7 @@ pub struct Param {
 }
 
 /// A parameter's type, seen as the numbers in it.
-pub(super) trait Numbers {
+pub(crate) trait Numbers {
     /// Calls `each` on every number.
     fn numbers(&self, each: &mut dyn FnMut(f64));
 }
@@ -33,14 +33,22 @@ impl Numbers for u32 {
     }
 }
 
-impl Numbers for [f64; 2] {
+impl<const N: usize> Numbers for [f64; N] {
     fn numbers(&self, each: &mut dyn FnMut(f64)) {
         self.iter().for_each(|x| each(*x));
     }
 }
 
+impl<T: Numbers> Numbers for Option<T> {
+    fn numbers(&self, each: &mut dyn FnMut(f64)) {
+        if let Some(inner) = self {
+            inner.numbers(each);
+        }
+    }
+}
+
 /// A node whose numeric parameters can be visited together with their declarations.
-pub(super) trait Params {
+pub(crate) trait Params {
     /// Calls `each` on the name, the declaration and the value of every number.
     fn params(&self, each: &mut dyn FnMut(&'static str, &Param, f64));
 }
@@ -91,4 +99,4 @@ macro_rules! node {
         }
     };
 }
-pub(super) use node;
+pub(crate) use node;

@@ -10,7 +10,7 @@ use bevy::render::renderer::{RenderContext, RenderDevice, RenderQueue};
 use bytemuck::{Pod, Zeroable};
 use horizon_field::field::Contents;
 
-use super::super::kernel::named_fields;
+use super::super::kernel::fields_of;
 use super::super::uniforms::{ClipmapUniform, MaterialUniform, SunUniform};
 use super::CachePipelines;
 use super::clipmap::{Clipmap, DrawnLevel, TILE, TILE_BOUNDS, Tile, Work, place_of};
@@ -78,7 +78,7 @@ impl CacheBuffers {
 }
 
 fn field_buffers(fields: &TerrainFields, device: &RenderDevice) -> [Buffer; 3] {
-    let contents = Contents::new(&named_fields(fields).map(|(_, field)| field));
+    let contents = Contents::new(&fields_of(fields));
     [
         filled("horizon_field_layers", &contents.layers, BufferUsages::STORAGE, device),
         filled("horizon_field_numbers", &contents.numbers, BufferUsages::STORAGE, device),
@@ -130,10 +130,11 @@ impl FrameJobs {
         if !work.fill.is_empty() {
             let mut anchors = Vec::new();
             let mut fills = Vec::with_capacity(work.fill.len());
-            let stride = named_fields(fields).iter().map(|(_, field)| field.layer_count()).sum::<usize>() as u32;
+            let all = fields_of(fields);
+            let stride = all.iter().map(|field| field.layer_count()).sum::<usize>() as u32;
             for (i, tile) in work.fill.iter().enumerate() {
                 let place = place_of(*tile);
-                for (_, field) in named_fields(fields) {
+                for field in &all {
                     field.append_anchor_bytes(&field.anchor(&place), &mut anchors);
                 }
                 fills.push(FillJob {

@@ -51,9 +51,7 @@ impl Demand {
         let texels = 2.0 * (std::f32::consts::SQRT_2 / (0.8 * nominal * budget) + 34.0);
         let mut side = ((texels / (2 * TILE) as f32).ceil() as u32 * 2).max(4);
         // Below an eighth of the field's finest wave, a patch is as smooth as what it stands for; a colour needs a quarter.
-        let wave = (fields.height.finest_wavelength() / 8.0)
-            .min(fields.edge.finest_wavelength() / 4.0)
-            .min(fields.tint.finest_wavelength() / 4.0);
+        let wave = (fields.height.finest_wavelength() / 8.0).min(fields.material.finest_wavelength() / 4.0);
         let detail = wave.log2().floor().clamp(FINEST.into(), COARSEST.into()) as i32;
         let far = camera.camera.far.clamp(1.0, 1e6);
         let binding = device.limits().max_storage_buffer_binding_size;

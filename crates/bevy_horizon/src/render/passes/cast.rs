@@ -117,8 +117,7 @@ impl CastPipeline {
                 let (right, below) = (at + 1, at + QUADS + 1);
                 [at, below, right, right, below, below + 1]
             };
-            let indices: Vec<u16> =
-                (0..QUADS).flat_map(|z| (0..QUADS).flat_map(move |x| quad(x, z))).collect();
+            let indices: Vec<u16> = (0..QUADS).flat_map(|z| (0..QUADS).flat_map(move |x| quad(x, z))).collect();
             device.create_buffer_with_data(&BufferInitDescriptor {
                 label: Some("horizon_cast_indices"),
                 contents: bytemuck::cast_slice(&indices),
@@ -139,9 +138,8 @@ struct LightView {
 impl LightView {
     /// As seen from a terrain's cache, whose centre is at `centre` in Bevy's coordinates.
     fn new(view: &ExtractedView, centre: Vec3) -> Self {
-        let clip_from_world = view
-            .clip_from_world
-            .unwrap_or_else(|| view.clip_from_view * view.world_from_view.to_matrix().inverse());
+        let clip_from_world =
+            view.clip_from_world.unwrap_or_else(|| view.clip_from_view * view.world_from_view.to_matrix().inverse());
         let orthographic = view.clip_from_view.w_axis.w == 1.0;
         let place = if orthographic {
             view.world_from_view.back().extend(0.0)

@@ -9,9 +9,7 @@ use bevy::ecs::query::QueryData;
 use bevy::platform::collections::HashMap;
 use bevy::prelude::*;
 use bevy::render::diagnostic::RecordDiagnostics;
-use bevy::render::render_resource::binding_types::{
-    storage_buffer_read_only_sized, texture_depth_2d, uniform_buffer,
-};
+use bevy::render::render_resource::binding_types::{storage_buffer_read_only_sized, texture_depth_2d, uniform_buffer};
 use bevy::render::render_resource::{
     BindGroup, BindGroupLayoutDescriptor, CachedRenderPipelineId, CompareFunction, DepthStencilState,
     DynamicBindGroupEntries, DynamicBindGroupLayoutEntries, Extent3d, FragmentState, LoadOp, MultisampleState,
@@ -280,7 +278,8 @@ fn draw(
 ) {
     let Some((pipeline, group)) = pipelines.get_render_pipeline(draw.pipeline).zip(draw.group.as_ref()) else { return };
     let colours = textures.map_or(Vec::new(), |textures| {
-        let targets = [&textures.normal, &textures.motion_vectors, &textures.deferred, &textures.deferred_lighting_pass_id];
+        let targets =
+            [&textures.normal, &textures.motion_vectors, &textures.deferred, &textures.deferred_lighting_pass_id];
         targets.map(|target| target.as_ref().map(|target| target.get_attachment())).into()
     });
     let diagnostics = ctx.diagnostic_recorder();

@@ -74,16 +74,10 @@ pub fn add_ground(render_app: &mut SubApp) {
     render_app.add_systems(
         Core3d,
         (
-            geometry::draw_geometry
-                .after(early_downsample_depth)
-                .before(late_prepass)
-                .in_set(Core3dSystems::Prepass),
+            geometry::draw_geometry.after(early_downsample_depth).before(late_prepass).in_set(Core3dSystems::Prepass),
             cast::draw_cascades.after(per_view_shadow_pass::<LATE_SHADOW_PASS>).before(Core3dSystems::MainPass),
             cast::draw_shared.after(shared_shadow_pass::<LATE_SHADOW_PASS>).before(Core3dSystems::MainPass),
-            (
-                shade::draw_shade.before(screen_space_reflections),
-                draw::draw_heat.after(screen_space_reflections),
-            )
+            (shade::draw_shade.before(screen_space_reflections), draw::draw_heat.after(screen_space_reflections))
                 .chain()
                 .before(main_opaque_pass_3d)
                 .in_set(Core3dSystems::MainPass),

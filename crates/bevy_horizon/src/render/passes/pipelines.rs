@@ -102,11 +102,7 @@ pub struct Variant {
 
 impl PassKey {
     pub fn variant(&self) -> Variant {
-        Variant {
-            ldr: self.tonemapping.is_some(),
-            multisampled: self.samples > 1,
-            air: self.air != SkyModel::Gradient,
-        }
+        Variant { ldr: self.tonemapping.is_some(), multisampled: self.samples > 1, air: self.air != SkyModel::Gradient }
     }
 }
 

@@ -91,9 +91,8 @@ impl ShadePipelines {
             fragment.entry_point = Some("shade".into());
             if !deferred {
                 descriptor.depth_stencil = None;
-                let of_deferred = |def: &ShaderDefVal| {
-                    matches!(def, ShaderDefVal::Bool(name, _) if name.starts_with("DEFERRED_"))
-                };
+                let of_deferred =
+                    |def: &ShaderDefVal| matches!(def, ShaderDefVal::Bool(name, _) if name.starts_with("DEFERRED_"));
                 fragment.shader_defs.retain(|def| !of_deferred(def));
                 descriptor.vertex.shader_defs.retain(|def| !of_deferred(def));
             }
@@ -174,10 +173,8 @@ pub fn bind_shade(
         if let Some(ViewSky::Air { table, .. }) = ground.sky {
             let tables = uniforms.airs.binding().zip(airs.buffers(table));
             let Some((uniform, [transmittances, _])) = tables else { continue };
-            let air = DynamicBindGroupEntries::new_with_indices((
-                (13, uniform),
-                (14, transmittances.as_entire_binding()),
-            ));
+            let air =
+                DynamicBindGroupEntries::new_with_indices(((13, uniform), (14, transmittances.as_entire_binding())));
             entries.extend_from_slice(&air);
         }
         let layout = cache.get_bind_group_layout(&shade.variant.layout());
