@@ -13,7 +13,9 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::HorizonSystems;
-use crate::world::{Atmosphere, CompiledTerrain, ParamError, Sun, Terrain, TerrainError, check_params};
+use crate::world::{
+    Atmosphere, CompiledTerrain, ParamError, Sun, Terrain, TerrainError, check_atmosphere, check_params,
+};
 #[cfg(feature = "render")]
 use crate::world::{SkyModel, Sunlight, illuminance};
 
@@ -143,7 +145,7 @@ impl WorldFile {
             check_params("terrain.material", &terrain.material)?;
         }
         if let Some(atmosphere) = &self.atmosphere {
-            check_params("atmosphere", atmosphere)?;
+            check_atmosphere(atmosphere)?;
         }
         if let Some(sun) = &self.sun {
             check_params("sun", sun)?;
