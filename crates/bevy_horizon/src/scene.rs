@@ -14,7 +14,9 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::HorizonSystems;
-use crate::world::{Atmosphere, CompiledTerrain, ParamError, Sun, Terrain, TerrainError, check_params};
+use crate::world::{
+    Atmosphere, CompiledTerrain, ParamError, Sun, Terrain, TerrainError, check_atmosphere, check_params,
+};
 #[cfg(feature = "render")]
 use crate::world::{SkyModel, Sunlight, illuminance};
 
@@ -144,7 +146,7 @@ impl WorldFile {
             terrain.material.check()?;
         }
         if let Some(atmosphere) = &self.atmosphere {
-            check_params("atmosphere", atmosphere)?;
+            check_atmosphere(atmosphere)?;
         }
         if let Some(sun) = &self.sun {
             check_params("sun", sun)?;
