@@ -1,6 +1,7 @@
 //! The integration tests: one binary.
 
 mod anchoring;
+mod bodies;
 mod compose;
 mod device;
 mod editing;
@@ -11,6 +12,7 @@ mod heat;
 mod march;
 mod moving;
 mod parity;
+mod picking;
 mod queries;
 mod rivals;
 mod scaling;

@@ -149,11 +149,12 @@ pub(super) fn make_tiles(
     for (entity, tile) in &tiles {
         of_terrain.entry(tile.terrain).or_default().insert(tile.index, entity);
     }
-    let mut disturbed = false;
     for (terrain, compiled, transform, friction, restitution, layers) in &terrains {
         let mut there = of_terrain.remove(&terrain).unwrap_or_default();
         if relaid || compiled.is_changed() {
-            disturbed |= !there.is_empty();
+            if !there.is_empty() {
+                wake(&bodies, &mut commands);
+            }
             there.drain().for_each(|(_, tile)| commands.entity(tile).despawn());
         }
         let Some(ground) = world.ground(Some(terrain)) else { continue };
@@ -192,15 +193,18 @@ pub(super) fn make_tiles(
         }
     }
     // Those of terrains that are no more.
+    if !of_terrain.is_empty() {
+        wake(&bodies, &mut commands);
+    }
     for tile in of_terrain.into_values().flat_map(HashMap::into_values) {
-        disturbed = true;
         commands.entity(tile).despawn();
     }
-    if disturbed {
-        // What sleeps would hang in the air.
-        for (body, ..) in bodies.iter().filter(|(.., asleep)| *asleep) {
-            commands.queue(WakeBody(body));
-        }
+}
+
+/// Wakes all bodies that sleep: without their ground they would hang in the air.
+fn wake(bodies: &Bodies, commands: &mut Commands) {
+    for (body, ..) in bodies.iter().filter(|(.., asleep)| *asleep) {
+        commands.queue(WakeBody(body));
     }
 }
 
