@@ -222,7 +222,7 @@ fn adopt(settings: &TileSettings, good: &mut TileSettings) -> bool {
 /// Where the colliders of all bodies that move may be within a step.
 fn footprints(bodies: &Bodies, colliders: &Colliders, seconds: f32) -> Vec<Footprint> {
     let mut footprints = Vec::new();
-    for (_, body, velocity, of_body, _) in bodies.iter().filter(|(_, body, ..)| !body.is_static()) {
+    for (_, _, velocity, of_body, _) in bodies.iter().filter(|(_, body, ..)| !body.is_static()) {
         // Gravity, and what contacts make of the velocity, are small against a tenth of a metre a step.
         let travel = velocity.0.length() * seconds + 0.1;
         for (collider, position, rotation) in of_body.into_iter().filter_map(|collider| colliders.get(collider).ok()) {
