@@ -78,7 +78,7 @@ fn path(visits: &[Visit], mut index: usize) -> String {
 }
 
 /// The first number of a node that is not in its declared range.
-fn check_numbers(node: &dyn Params, path: &dyn Fn() -> String) -> Result<(), FieldError> {
+pub(crate) fn check_numbers(node: &dyn Params, path: &dyn Fn() -> String) -> Result<(), FieldError> {
     let mut found = Ok(());
     node.params(&mut |name, param, value| {
         if found.is_ok() {
@@ -88,7 +88,7 @@ fn check_numbers(node: &dyn Params, path: &dyn Fn() -> String) -> Result<(), Fie
     found
 }
 
-fn check_number(
+pub(crate) fn check_number(
     name: &str,
     &Param { min, max, unit, .. }: &Param,
     value: f64,

@@ -16,7 +16,7 @@ pub struct Param {
 }
 
 /// A parameter's type, seen as the numbers in it.
-pub(super) trait Numbers {
+pub(crate) trait Numbers {
     /// Calls `each` on every number.
     fn numbers(&self, each: &mut dyn FnMut(f64));
 }
@@ -39,8 +39,14 @@ impl Numbers for [f64; 2] {
     }
 }
 
+impl Numbers for Vec<[f64; 3]> {
+    fn numbers(&self, each: &mut dyn FnMut(f64)) {
+        self.iter().flatten().for_each(|x| each(*x));
+    }
+}
+
 /// A node whose numeric parameters can be visited together with their declarations.
-pub(super) trait Params {
+pub(crate) trait Params {
     /// Calls `each` on the name, the declaration and the value of every number.
     fn params(&self, each: &mut dyn FnMut(&'static str, &Param, f64));
 }
@@ -91,4 +97,4 @@ macro_rules! node {
         }
     };
 }
-pub(super) use node;
+pub(crate) use node;
