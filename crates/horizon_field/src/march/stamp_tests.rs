@@ -89,7 +89,11 @@ fn a_thousand_stamps_aside_cost_a_ray_nothing() {
             let surface = [&bare, &stamped][k];
             cast(surface, &away, 8000.0, Tolerance::default(), &mut counts[k])
         });
-        assert_eq!(one, other);
+        // They take other steps where the range of heights is another.
+        assert_eq!(one.hit().is_some(), other.hit().is_some());
+        if let (Some(one), Some(other)) = (one.hit(), other.hit()) {
+            assert!((one.t - other.t).abs() < 1e-9, "{one:?} and {other:?}");
+        }
         cast(&stamped, &ray(turn.cos().signum()), 12_000.0, Tolerance::default(), &mut counts[2]);
     }
     println!("{:?} without, {:?} with, {:?} towards them", counts[0], counts[1], counts[2]);
