@@ -17,4 +17,5 @@ mod scaling;
 mod shaders;
 mod sky;
 mod stability;
+mod stamps;
 mod worlds;

@@ -3,10 +3,11 @@
 use std::sync::Arc;
 
 use bevy::prelude::*;
+use horizon_field::stamp::StampError;
 use horizon_field::{Compiled, FieldError};
 use thiserror::Error;
 
-use super::{ParamError, Terrain, TerrainMaterial, check_params};
+use super::{CompiledStamps, ParamError, Terrain, TerrainMaterial, check_params};
 
 /// What [`Terrain`] became: the compiled height field and the noises of its material. Shared with queries and renderer.
 /// After a bad edit the last good one stays.
@@ -61,6 +62,9 @@ pub enum TerrainError {
     /// The heights of the material's boundaries do not rise.
     #[error("terrain.material.boundaries is {0:?}, but must rise")]
     Boundaries([f32; 4]),
+    /// A stamp makes no sense.
+    #[error(transparent)]
+    Stamp(#[from] StampError),
 }
 
 /// A terrain was rejected; what was there before stays.
@@ -94,6 +98,6 @@ pub(crate) fn compile_terrain(
 /// Ground that is no more answers no questions.
 pub(crate) fn forget_terrain(removed: On<Remove, Terrain>, mut commands: Commands) {
     if let Ok(mut entity) = commands.get_entity(removed.entity) {
-        entity.try_remove::<CompiledTerrain>();
+        entity.try_remove::<(CompiledTerrain, CompiledStamps)>();
     }
 }

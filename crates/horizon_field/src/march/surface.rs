@@ -67,6 +67,11 @@ impl<'a> Anchored<'a> {
         }
     }
 
+    /// How far plants are kept away at `q`, from 0 (not at all) to 1.
+    pub fn clearing(&self, q: [f64; 2]) -> f64 {
+        self.stamps.as_ref().map_or(0.0, |stamps| stamps.clearing(q))
+    }
+
     /// [`cast`](super::cast) with the usual tolerance, compiled in this crate.
     pub fn cast(&self, ray: &Ray, t_max: f64) -> Cast {
         super::cast(self, ray, t_max, Tolerance::default(), &mut Counts::default())
