@@ -81,6 +81,7 @@ impl Plugin for HorizonWorldPlugin {
             .register_type::<world::Atmosphere>()
             .add_message::<world::TerrainRejected>()
             .add_message::<world::StampRejected>()
+            .add_message::<world::GroundChanged>()
             .register_type::<world::TimeOfDay>()
             .add_message::<world::AtmosphereRejected>()
             .add_systems(

@@ -28,7 +28,7 @@ pub use shine::illuminance;
 #[cfg(feature = "render")]
 pub(crate) use shine::{altitude, shine};
 pub(crate) use stamp::compile_stamps;
-pub use stamp::{CompiledStamps, Stamp, StampPlace, StampRejected};
+pub use stamp::{CompiledStamps, GroundChanged, Stamp, StampPlace, StampRejected};
 pub use sun::Sun;
 pub(crate) use sunlight::turn_suns;
 pub use sunlight::{Sunlight, TimeOfDay, towards_sun};

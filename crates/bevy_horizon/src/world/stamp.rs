@@ -5,7 +5,7 @@ use std::sync::Arc;
 use bevy::ecs::system::SystemParam;
 use bevy::platform::collections::{HashMap, HashSet};
 use bevy::prelude::*;
-use horizon_field::stamp::{Edit, Mode, Placed, Ready, Shape, StampError, heading_of};
+use horizon_field::stamp::{Area, Edit, Mode, Placed, Ready, Shape, StampError, heading_of};
 use horizon_field::{Place, Stamps};
 
 use super::{CompiledTerrain, WorldOrigin};
@@ -53,6 +53,16 @@ pub struct StampPlace {
 /// other players. It is there once the terrain has had a stamp.
 #[derive(Component, Clone, Debug, Default)]
 pub struct CompiledStamps(pub Arc<Stamps>);
+
+/// The stamps of a terrain are others: its ground is out of date in these areas of its field, for whoever keeps heights of it. A terrain
+/// whose field changes sends none: look for `Changed<CompiledTerrain>`.
+#[derive(Message, Clone, Debug)]
+pub struct GroundChanged {
+    /// The terrain.
+    pub terrain: Entity,
+    /// Where; around each stamp that came, went, or changed.
+    pub areas: Vec<Area>,
+}
 
 /// A stamp was rejected; what it was before stays.
 #[derive(Message, Clone, Debug)]
@@ -145,9 +155,10 @@ pub(crate) fn compile_stamps(
     mut changes: StampChanges,
     origin: Res<WorldOrigin>,
     stamps: StampEntities,
-    terrains: Query<(Entity, &GlobalTransform), With<CompiledTerrain>>,
+    terrains: Query<(Entity, &GlobalTransform, Option<&CompiledStamps>), With<CompiledTerrain>>,
     parents: Query<&ChildOf>,
     mut all: Local<KnownStamps>,
+    mut changed: MessageWriter<GroundChanged>,
     mut rejected: MessageWriter<StampRejected>,
 ) {
     // Both are asked: what was read is read.
@@ -160,7 +171,8 @@ pub(crate) fn compile_stamps(
     for (entity, stamp, transform, place) in &stamps {
         let mut above = core::iter::once(entity).chain(parents.iter_ancestors(entity));
         let owner = above.find(|above| terrains.contains(*above));
-        for (terrain, ground) in terrains.iter().filter(|(terrain, _)| owner.is_none_or(|owner| owner == *terrain)) {
+        for (terrain, ground, _) in terrains.iter().filter(|(terrain, ..)| owner.is_none_or(|owner| owner == *terrain))
+        {
             let last = known.get(&(entity, terrain));
             let pose = Pose::new(transform, ground);
             let at = match (place, last) {
@@ -193,11 +205,13 @@ pub(crate) fn compile_stamps(
         }
         stays
     });
-    for terrain in touched.into_iter().filter(|terrain| terrains.contains(*terrain)) {
+    for (terrain, _, old) in terrains.iter().filter(|(terrain, ..)| touched.contains(terrain)) {
         let of = known.iter().filter(|((_, of), _)| *of == terrain);
         let set = Stamps::new(of.filter_map(|(_, last)| last.ready.clone()).collect());
-        if let Ok(mut terrain) = commands.get_entity(terrain) {
-            terrain.try_insert(CompiledStamps(Arc::new(set)));
+        let areas = old.map_or_else(|| Stamps::default().changes(&set), |old| old.0.changes(&set));
+        if !areas.is_empty() {
+            changed.write(GroundChanged { terrain, areas });
         }
+        commands.entity(terrain).try_insert(CompiledStamps(Arc::new(set)));
     }
 }

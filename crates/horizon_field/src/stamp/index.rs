@@ -38,6 +38,8 @@ struct Node {
     items: Range<u32>,
     /// The second child; the first one follows its parent. 0 for a leaf.
     second: u32,
+    /// The first node after its subtree.
+    past: u32,
 }
 
 /// Boxes by their numbers.
@@ -66,7 +68,7 @@ impl Index {
         let boxes = &self.boxes;
         let bounds = self.items[range.clone()].iter().fold(Box2::EMPTY, |all, i| all.joined(&boxes[*i as usize]));
         let at = self.nodes.len();
-        self.nodes.push(Node { bounds, items: range.start as u32..range.end as u32, second: 0 });
+        self.nodes.push(Node { bounds, items: range.start as u32..range.end as u32, second: 0, past: at as u32 + 1 });
         if range.len() <= LEAF {
             return;
         }
@@ -78,6 +80,7 @@ impl Index {
         self.build(range.start..range.start + half);
         self.nodes[at].second = self.nodes.len() as u32;
         self.build(range.start + half..range.end);
+        self.nodes[at].past = self.nodes.len() as u32;
     }
 
     /// The numbers of the boxes that touch `area`, in rising order, but for those that `taken` takes: it is asked of boxes
@@ -85,12 +88,11 @@ impl Index {
     /// looked at, too.
     pub fn touching(&self, area: &Box2, mut taken: impl FnMut(usize) -> bool) -> (Vec<u32>, usize) {
         let (mut found, mut looked, mut at) = (Vec::new(), 0, 0);
-        // In the order of storage: past a node's subtree lies its sibling.
         while at < self.nodes.len() {
             let node = &self.nodes[at];
             looked += 1;
             if !node.bounds.touches(area) || (area.holds(&node.bounds) && taken(at)) {
-                at = self.past(at);
+                at = node.past as usize;
                 continue;
             }
             if node.second == 0 {
@@ -101,14 +103,6 @@ impl Index {
         }
         found.sort_unstable();
         (found, looked)
-    }
-
-    /// The first node after a node's subtree.
-    fn past(&self, mut at: usize) -> usize {
-        while self.nodes[at].second != 0 {
-            at = self.nodes[at].second as usize;
-        }
-        at + 1
     }
 
     /// For each node, what `join` makes of what `of` says of its boxes.

@@ -92,6 +92,14 @@ pub struct Area {
     pub narrow: f64,
 }
 
+impl Area {
+    /// Whether a square around a place meets it: `half` is half of the square's side, in metres.
+    pub fn meets(&self, centre: &Place, half: f64) -> bool {
+        let [x, _, z] = centre.minus(&self.place);
+        [x, z].iter().zip(self.size).all(|(from, size)| *from >= -half && *from <= size + half)
+    }
+}
+
 impl Layer {
     fn new(stamps: &[Arc<Ready>], origin: &Place, belongs: impl Fn(&Ready) -> bool) -> Self {
         let mut parts = Vec::new();
@@ -194,7 +202,8 @@ impl Stamps {
                 Ordering::Less => old.next(),
                 Ordering::Greater => new.next(),
                 Ordering::Equal => {
-                    (old.next(), new.next());
+                    old.next();
+                    new.next();
                     None
                 }
             };

@@ -76,14 +76,15 @@ fn moving_one_changes_its_own_area() {
         assert!((x + 13.0).abs() < 1e-6 && (z + 13.0).abs() < 1e-6, "{area:?}");
         assert!(area.size.iter().all(|size| (size - 26.0).abs() < 1e-6) && area.narrow == 26.0);
     }
+    assert!(
+        areas[0].meets(&old.translated([-14.0, 50.0, 10.0]), 1.5)
+            && !areas[0].meets(&old.translated([-14.0, 0.0, 0.0]), 0.5)
+    );
     // Nothing outside of them is different, bit for bit.
     for _ in 0..2000 {
         let q = [random.within(-200.0, 200.0), random.within(-200.0, 200.0)];
         let point = old.translated([q[0], 0.0, q[1]]);
-        let inside = areas.iter().any(|area| {
-            let [x, _, z] = point.minus(&area.place);
-            (0.0..=area.size[0]).contains(&x) && (0.0..=area.size[1]).contains(&z)
-        });
+        let inside = areas.iter().any(|area| area.meets(&point, 0.0));
         let [a, b] = [&with, &moved].map(|set| set.at(&old).jet(q, 0.0, slope(q)));
         assert!(inside || a == b, "{q:?}");
     }
