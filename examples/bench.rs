@@ -65,7 +65,9 @@ const PASSES: [&str; 7] = [
     "horizon_light",
     "horizon_clearance",
     "horizon_ground",
-    "horizon_upsample",
+    "horizon_ground_scaled",
+    "horizon_shade",
+    "horizon_cast",
     "horizon_sky",
 ];
 

@@ -99,8 +99,8 @@ fn terrain_adds_only_its_own() {
     stage.settle();
     let with = counts(&stage);
     println!("terrain adds {} pipelines: {:?}", with.0 - before.0, own(&with.1));
-    // Fill, pyramid, light, clearance and ground.
-    assert_eq!(with.0 - before.0, 5);
+    // Fill, pyramid, light, clearance, ground and its shade.
+    assert_eq!(with.0 - before.0, 6);
     assert!(own(&with.1).iter().any(|name| name.contains("horizon_heights")));
 }
 

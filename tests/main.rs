@@ -9,6 +9,7 @@ mod figures;
 mod golden;
 mod heat;
 mod march;
+mod material;
 mod moving;
 mod parity;
 mod queries;

@@ -10,9 +10,9 @@ use bevy::render::settings::{RenderCreation, WgpuSettings, WgpuSettingsPriority}
 use bevy_horizon::prelude::*;
 use bevy_horizon::render::ready::Progress;
 use bevy_horizon::render::shader_sources;
+use bevy_horizon::world::{CurvatureRule, MaskRule, MaterialLayer};
 use bevy_horizon_workspace::offscreen::{self, Offscreen};
 use horizon_field::field::arbitrary::{Pictures, every_kind};
-use horizon_field::field::kernel::module;
 use naga::back::{hlsl, msl, spv};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, Module, TypeInner};
@@ -112,7 +112,10 @@ fn every_shader_translates_within_the_limits() {
     let mut shaders = 0;
     for (kind, field) in every_kind(9) {
         let plane = field.compile::<2>(&Pictures).unwrap();
-        let kernel = module(0, &[("height", &plane), ("material_edge", &plane), ("material_tint", &plane)]).source;
+        let mask = Some(MaskRule { field, ..default() });
+        let masked = MaterialLayer { mask, curvature: Some(CurvatureRule::default()), ..default() };
+        let material = TerrainMaterial { layers: vec![masked], ..default() };
+        let kernel = material.compile(&Pictures).unwrap().kernel(0, &plane).source;
         // Only the fill pass has the kernel in it.
         let parts = if shaders == 0 { usize::MAX } else { 1 };
         for (name, source) in shader_sources(&kernel).into_iter().take(parts) {

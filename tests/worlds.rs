@@ -128,6 +128,8 @@ fn bad_files() -> Vec<Bad> {
     let syntax = |error: &WorldFileError| matches!(error, WorldFileError::Syntax { .. });
     let value = |error: &WorldFileError| matches!(error, WorldFileError::Value { .. });
     let field = |field: &str| GOOD.replace("gain: 0.5", field);
+    let material =
+        |parts: &str| GOOD.replace("    ),\n    sun", &format!("        material: ({parts}),\n    ),\n    sun"));
     let nested = |depth: usize| {
         let field = format!("field: {}Constant(0.0){}", "Add([\n".repeat(depth), "])".repeat(depth));
         format!("(version: 1, terrain: ({field}))")
@@ -153,6 +155,21 @@ fn bad_files() -> Vec<Bad> {
         ("lacunarity 1", field("lacunarity: 1.0"), value, &["line 6", "Fractal.lacunarity"]),
         ("negative octaves", field("octaves: -3.0"), value, &["line 6", "Fractal.octaves", "-3"]),
         ("sun of NaN", GOOD.replace("elevation: 0.5", "elevation: NaN"), value, &["line 9", "sun.elevation", "NaN"]),
+        ("unknown rule", material("layers: [(hight: ())]"), syntax, &["line 8", "hight"]),
+        ("colour 1.5", material("base: (colour: (0.1, 1.5, 0.1))"), value, &["line 8", "material.base.colour", "1.5"]),
+        (
+            "falling heights",
+            material("layers: [(), (height: (low: 5.0, high: 1.0))]"),
+            value,
+            &["line 8", "material.layers[1].height", "5 to 1"],
+        ),
+        (
+            "a mask of NaN",
+            material("layers: [(mask: (field: Fractal(octaves: NaN)))]"),
+            value,
+            &["line 8", "material.layers[0].mask", "Fractal.octaves", "NaN"],
+        ),
+        ("17 layers", material(&format!("layers: [{}]", "(),".repeat(17))), value, &["line 8", "17 layers"]),
         ("nested 70 deep", nested(70), |_| true, &[]),
         ("nested 10 000 deep", nested(10_000), syntax, &["line "]),
     ]
@@ -186,10 +203,13 @@ fn what_only_the_loader_sees_is_refused_too() {
         ("garbage.ron", (0..=255).rev().cycle().take(9999).collect(), &["line 1"]),
         ("cut_letter.ron", [GOOD.as_bytes(), b"// \xc3"].concat(), &["line 11"]),
         (
-            "falling.ron",
-            GOOD.replace("    ),\n    sun", "        material: (boundaries: (5.0, 1.0, 2.0, 3.0)),\n    ),\n    sun")
-                .into(),
-            &["boundaries"],
+            "missing_mask.ron",
+            GOOD.replace(
+                "    ),\n    sun",
+                "        material: (layers: [(mask: (field: Image(path: \"paint.png\")))]),\n    ),\n    sun",
+            )
+            .into(),
+            &["line 8", "paint.png"],
         ),
     ];
     for (name, bytes, parts) in cases {

@@ -67,4 +67,8 @@ pub enum DebugView {
     Error,
     /// For programs: turns in red, loads in green, as numbers.
     Work,
+    /// The ground's perceptual roughness.
+    Roughness,
+    /// How far the ground moved since the last frame: grey stands still, red moves to the right, green down, full at 32 pixels.
+    Motion,
 }

@@ -9,6 +9,7 @@ use bevy::prelude::*;
 use horizon_field::FieldError;
 use horizon_field::field::HeightImage;
 use horizon_field::field::check::MAX_DEPTH;
+use horizon_field::material::MaterialError;
 use horizon_field::stamp::{Placed, StampError};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -146,7 +147,7 @@ impl WorldFile {
     fn check(&self) -> Result<(), TerrainError> {
         if let Some(terrain) = &self.terrain {
             terrain.field.check()?;
-            check_params("terrain.material", &terrain.material)?;
+            terrain.material.check()?;
         }
         if let Some(atmosphere) = &self.atmosphere {
             check_params("atmosphere", atmosphere)?;
@@ -173,13 +174,19 @@ fn options() -> ron::Options {
 /// The line on which a refused parameter stands: the first one that has its name with its value.
 fn line_of(text: &str, error: &TerrainError) -> Option<usize> {
     let (path, value) = match error {
-        TerrainError::Param(ParamError { field, value, .. }) => (field, Some(*value)),
-        TerrainError::Field(FieldError::OutOfRange { path, value, .. } | FieldError::NotFinite { path, value })
-        | TerrainError::Stamp(StampError::Param(
-            FieldError::OutOfRange { path, value, .. } | FieldError::NotFinite { path, value },
-        )) => (path, Some(*value)),
-        TerrainError::Field(FieldError::Empty { path, low, .. }) => (path, Some(*low)),
-        TerrainError::Boundaries(heights) => (&String::from("boundaries"), Some(f64::from(heights[0]))),
+        TerrainError::Param(ParamError { field, value, .. }) => (field.as_str(), Some(*value)),
+        TerrainError::Material(MaterialError::TooManyLayers { .. }) => ("layers", None),
+        TerrainError::Field(error)
+        | TerrainError::Stamp(StampError::Param(error))
+        | TerrainError::Material(MaterialError::Value(error) | MaterialError::Mask { source: error, .. }) => {
+            match error {
+                FieldError::OutOfRange { path, value, .. } | FieldError::NotFinite { path, value } => {
+                    (path.as_str(), Some(*value))
+                }
+                FieldError::Empty { path, low, .. } => (path.as_str(), Some(*low)),
+                _ => return None,
+            }
+        }
         _ => return None,
     };
     let name = path.rsplit('.').next()?.split('[').next()?;
@@ -220,7 +227,10 @@ impl AssetLoader for WorldLoader {
         let mut world = WorldFile::from_ron(&text)?;
         if let Some(terrain) = &mut world.terrain {
             let mut images = BTreeMap::new();
-            for path in terrain.field.image_paths() {
+            for path in terrain.field.image_paths().into_iter().chain(terrain.material.image_paths()) {
+                if images.contains_key(&path) {
+                    continue;
+                }
                 let line = text.lines().position(|line| line.contains(&path)).map(|at| at + 1);
                 let failed = |reason: String| WorldFileError::Image { line, path: path.clone(), reason };
                 let bytes = context.read_asset_bytes(path.clone()).await.map_err(|error| failed(error.to_string()))?;
@@ -333,13 +343,17 @@ fn apply_worlds(
                 let [r, g, b] = illuminance(&air.medium, 0.0, sun.direction().y.into()).map(|x| x as f32);
                 let brightest = r.max(g).max(b).max(1e-9);
                 let color = Color::linear_rgb(r / brightest, g / brightest, b / brightest);
-                let light = DirectionalLight { color, illuminance: brightest, ..default() };
+                let light = DirectionalLight { color, illuminance: brightest, shadow_maps_enabled: true, ..default() };
                 commands.spawn((WorldSun, Sunlight, light, sun.transform(), ChildOf(owner)));
                 continue;
             }
             let [r, g, b] = sun.colour;
-            let light =
-                DirectionalLight { color: Color::linear_rgb(r, g, b), illuminance: sun.illuminance, ..default() };
+            let light = DirectionalLight {
+                color: Color::linear_rgb(r, g, b),
+                illuminance: sun.illuminance,
+                shadow_maps_enabled: true,
+                ..default()
+            };
             commands.spawn((WorldSun, light, sun.transform(), ChildOf(owner)));
             commands.insert_resource(GlobalAmbientLight {
                 color: Color::linear_rgb(0.62, 0.78, 1.0),

@@ -1,5 +1,5 @@
-//! What an implicit world is: hash, lattice, noise, fractals, the field tree, its bounds, its shader, and the
-//! certified march that answers for all of them. There is no rendering in here: a server builds it as it is.
+//! What an implicit world is: hash, lattice, noise, fractals, the field tree, its bounds, its shader, the ground's
+//! material, and the certified march that answers for all of them. There is no rendering in here: a server builds it as it is.
 #![deny(missing_docs)]
 
 pub mod field;
@@ -7,6 +7,7 @@ pub mod fractal;
 pub mod hash;
 pub mod lattice;
 pub mod march;
+pub mod material;
 #[cfg(feature = "baselines")]
 pub mod methods;
 pub mod metrics;

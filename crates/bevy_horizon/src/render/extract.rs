@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use bevy::camera::visibility::{InheritedVisibility, RenderLayers};
+use bevy::core_pipeline::prepass::DeferredPrepass;
 use bevy::light::{AmbientLight, DirectionalLight, GlobalAmbientLight};
+use bevy::pbr::deferred::SkipDeferredLighting;
 use bevy::prelude::*;
 use bevy::render::Extract;
 use bevy::render::sync_component::SyncComponent;
@@ -12,8 +14,8 @@ use horizon_field::{Place, Stamps};
 
 use super::air::ViewAir;
 use super::kernel::TerrainKernel;
-use super::passes::{ViewClearance, ViewPasses};
-use super::view::ViewGround;
+use super::passes::{ViewClearance, ViewGeometry, ViewPasses, ViewShade};
+use super::view::{ViewBefore, ViewGround};
 use crate::camera::HorizonCamera;
 use crate::world::{
     Atmosphere, CompiledAtmosphere, CompiledStamps, CompiledTerrain, Sunlight, TerrainFields, WorldOrigin,
@@ -34,6 +36,11 @@ impl ExtractedWorld {
     pub fn risen_sun(&self) -> Option<(ExtractedSun, f32)> {
         let radius = self.atmospheres.first().map_or(Atmosphere::EARTH_SUN_RADIUS, |air| air.sun_radius);
         self.sun.filter(|sun| sun.direction.y > -radius.sin()).map(|sun| (sun, radius))
+    }
+
+    /// The sun whose shadows the ground casts onto itself.
+    pub fn shading_sun(&self) -> Option<(ExtractedSun, f32)> {
+        self.risen_sun().filter(|(sun, _)| sun.shadows)
     }
 
     /// The air that a camera sees, by its index.
@@ -68,6 +75,8 @@ pub struct ExtractedSun {
     pub illuminance: Vec3,
     /// Whether the air dims it.
     pub own: bool,
+    /// Whether it casts shadows.
+    pub shadows: bool,
 }
 
 /// A camera that draws worlds.
@@ -82,7 +91,17 @@ pub struct ExtractedHorizonCamera {
 }
 
 impl SyncComponent for HorizonCamera {
-    type Target = (ExtractedHorizonCamera, ViewGround, ViewAir, ViewPasses, ViewClearance);
+    type Target = (
+        ExtractedHorizonCamera,
+        ViewGround,
+        ViewBefore,
+        ViewAir,
+        ViewPasses,
+        ViewGeometry,
+        ViewShade,
+        ViewClearance,
+        SkipDeferredLighting,
+    );
 }
 
 type Terrains<'w, 's> = Query<
@@ -128,6 +147,7 @@ pub fn extract_world(
             direction: *transform.back(),
             illuminance: light.color.to_linear().to_vec3() * light.illuminance,
             own,
+            shadows: light.shadow_maps_enabled,
         })
         .max_by(|a, b| {
             let brighter = a.illuminance.element_sum().total_cmp(&b.illuminance.element_sum());
@@ -161,15 +181,17 @@ type Cameras<'w, 's> = Query<
         &'static Camera,
         Option<&'static RenderLayers>,
         Option<&'static AmbientLight>,
+        Has<DeferredPrepass>,
     ),
 >;
 
 pub fn extract_cameras(
     mut commands: Commands,
+    world: Res<ExtractedWorld>,
     cameras: Extract<Cameras>,
     global: Extract<Option<Res<GlobalAmbientLight>>>,
 ) {
-    for (entity, camera, active, layers, ambient) in &cameras {
+    for (entity, camera, active, layers, ambient, deferred) in &cameras {
         let mut entity = commands.entity(entity);
         if !active.is_active {
             entity.remove::<<HorizonCamera as SyncComponent>::Target>();
@@ -180,11 +202,13 @@ pub fn extract_cameras(
             (None, Some(light)) => light.color.to_linear().to_vec3() * light.brightness,
             (None, None) => Vec3::ZERO,
         };
-        entity.insert(ExtractedHorizonCamera {
-            camera: camera.clone(),
-            layers: layers.cloned().unwrap_or_default(),
-            ambient,
-            cached: true,
-        });
+        let layers = layers.cloned().unwrap_or_default();
+        // Where there is ground, we light the whole G-buffer.
+        if deferred && world.terrains.iter().any(|terrain| layers.intersects(&terrain.layers)) {
+            entity.insert(SkipDeferredLighting);
+        } else {
+            entity.remove::<SkipDeferredLighting>();
+        }
+        entity.insert(ExtractedHorizonCamera { camera: camera.clone(), layers, ambient, cached: true });
     }
 }

@@ -4,7 +4,7 @@
 use bevy::platform::collections::HashMap;
 use bevy::prelude::*;
 use bevy::shader::Shader;
-use horizon_field::field::kernel::module;
+use horizon_field::Compiled;
 
 use super::shaders::fill_source;
 use crate::world::{CompiledTerrain, TerrainFields};
@@ -17,9 +17,9 @@ pub struct TerrainKernel {
     pub shader: Handle<Shader>,
 }
 
-/// The fields of a terrain by the names that `fill.wgsl` and `material.wgsl` call them.
-pub fn named_fields(fields: &TerrainFields) -> [(&'static str, &horizon_field::Compiled<2>); 3] {
-    [("height", &fields.height), ("material_edge", &fields.edge), ("material_tint", &fields.tint)]
+/// The fields of a terrain in the order of its kernel: the height, then what its material uses.
+pub fn fields_of(fields: &TerrainFields) -> Vec<&Compiled<2>> {
+    core::iter::once(&fields.height).chain(fields.material.fields()).collect()
 }
 
 /// The kernels that were written, by structure: a tree that comes back, as undo brings it, compiles nothing. A game has
@@ -34,7 +34,7 @@ pub fn write_kernels(
     changed: Query<(Entity, &CompiledTerrain, Option<&TerrainKernel>), Changed<CompiledTerrain>>,
 ) {
     for (entity, compiled, old) in &changed {
-        let kernel = module(0, &named_fields(&compiled.0));
+        let kernel = compiled.0.material.kernel(0, &compiled.0.height);
         if old.is_some_and(|old| old.structure == kernel.structure) {
             continue;
         }

@@ -65,19 +65,36 @@ impl Plugin for HorizonRenderPlugin {
             .init_resource::<cache::Caches>()
             .init_resource::<cache::CachePipelines>()
             .init_resource::<passes::PassPipelines>()
+            .init_resource::<passes::GeometryPipelines>()
+            .init_resource::<passes::ShadePipelines>()
+            .init_resource::<passes::CastPipeline>()
             .init_resource::<passes::ClearancePipeline>()
             .init_resource::<air::AirTables>()
             .init_resource::<air::AirPipelines>()
             .init_resource::<view::HorizonViews>()
-            .add_systems(ExtractSchedule, (extract::extract_world, extract::extract_cameras, truth::extract_truths))
+            .add_systems(
+                ExtractSchedule,
+                ((extract::extract_world, extract::extract_cameras).chain(), truth::extract_truths),
+            )
             .add_systems(
                 Render,
                 (
                     passes::read_depth.after(prepare_view_targets).in_set(RenderSystems::PrepareViews),
-                    (cache::prepare_caches, air::prepare_airs, view::prepare_views, passes::prepare_pipelines)
+                    (
+                        cache::prepare_caches,
+                        air::prepare_airs,
+                        view::prepare_views,
+                        (
+                            passes::prepare_pipelines,
+                            passes::prepare_geometry,
+                            passes::prepare_shade,
+                            passes::prepare_casts,
+                        ),
+                    )
                         .chain()
                         .in_set(RenderSystems::PrepareResources),
-                    (passes::prepare_bind_groups, air::bind_airs).in_set(RenderSystems::PrepareBindGroups),
+                    (passes::prepare_bind_groups, passes::bind_geometry, passes::bind_shade, air::bind_airs)
+                        .in_set(RenderSystems::PrepareBindGroups),
                 ),
             )
             .add_systems(

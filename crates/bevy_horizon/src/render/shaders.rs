@@ -13,17 +13,20 @@ use horizon_light::sun;
 use crate::world::SkyModel;
 
 const SURFACE: &str = include_str!("cache/surface.wgsl");
+const SUN_SEEN: &str = include_str!("cache/sun_seen.wgsl");
+const LOOK: &str = include_str!("passes/look.wgsl");
+const SUNLIT: &str = include_str!("passes/sunlit.wgsl");
+const MOTION: &str = include_str!("passes/motion.wgsl");
 const VIEW: &str = include_str!("passes/view.wgsl");
 const AIR_VIEW: &str = include_str!("air/air_view.wgsl");
 const PRESENT_HDR: &str = "fn present(colour: vec4<f32>) -> vec4<f32> {\n    return colour;\n}\n";
 const DEPTH_SINGLE: &str = "@group(0) @binding(2) var depth_texture: texture_depth_2d;\n\
-    fn depth_at(at: vec2<i32>, sample_index: i32) -> f32 {\n    return textureLoad(depth_texture, at, 0);\n}\n";
+    fn depth_samples() -> i32 {\n    return 1;\n}\nfn depth_at(at: vec2<i32>, sample_index: i32) -> f32 {\n    return textureLoad(depth_texture, at, 0);\n}\n";
 const DEPTH_MULTISAMPLED: &str = "@group(0) @binding(2) var depth_texture: texture_depth_multisampled_2d;\n\
-    fn depth_at(at: vec2<i32>, sample_index: i32) -> f32 {\n    return textureLoad(depth_texture, at, sample_index);\n}\n";
+    fn depth_samples() -> i32 {\n    return i32(textureNumSamples(depth_texture));\n}\nfn depth_at(at: vec2<i32>, sample_index: i32) -> f32 {\n    return textureLoad(depth_texture, at, sample_index);\n}\n";
 
-const HEAT: &str = "const HEAT: bool = true;\n@group(0) @binding(9) var<storage, read> truths: array<f32>;\n\
-    fn truth_at(i: u32) -> f32 {\n    if (i >= arrayLength(&truths)) {\n        return 0.0;\n    }\n    return truths[i];\n}\n";
-const NO_HEAT: &str = "const HEAT: bool = false;\nfn truth_at(i: u32) -> f32 {\n    return 0.0;\n}\n";
+const COUNTED: &str = "const HEAT: bool = true;\n";
+const UNCOUNTED: &str = "const HEAT: bool = false;\n";
 
 /// A shader that is the same for every world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,10 +37,14 @@ pub enum Source {
     Light,
     /// The table of clear distances.
     Clearance,
-    /// The geometry pass; under air that lights it, and as a debug view.
-    Geometry { ldr: bool, heat: bool, air: bool },
-    /// The pass that brings the ground to the view's resolution.
-    Upsample { ldr: bool, heat: bool, air: bool },
+    /// The ground's geometry: from the depth of a lower resolution; with the surfaces that a prepass has.
+    Geometry { scaled: bool, surfaces: bool },
+    /// A debug view.
+    Heat { ldr: bool },
+    /// Light on the ground, or on a G-buffer; under air that makes it.
+    Shade { deferred: bool, multisampled: bool, air: bool },
+    /// The ground in shadow maps.
+    Cast,
     /// The simplest air.
     Gradient { ldr: bool, multisampled: bool },
     /// The air by a model that has tables.
@@ -59,15 +66,18 @@ const EITHER: [bool; 2] = [false, true];
 impl Source {
     /// All of them.
     fn all() -> Vec<Self> {
-        let mut all = vec![Self::Pyramid, Self::Light, Self::Clearance, Self::Transmittance, Self::Isotropic];
+        let mut all =
+            vec![Self::Pyramid, Self::Light, Self::Clearance, Self::Cast, Self::Transmittance, Self::Isotropic];
         all.extend(EITHER.map(|first| Self::Moments { first }));
         all.extend(MODELS.map(|model| Self::ViewTables { model }));
-        for ldr in EITHER {
-            for heat in EITHER {
-                for air in EITHER {
-                    all.extend([Self::Geometry { ldr, heat, air }, Self::Upsample { ldr, heat, air }]);
-                }
+        for a in EITHER {
+            for b in EITHER {
+                all.push(Self::Geometry { scaled: a, surfaces: b });
+                all.push(Self::Shade { deferred: false, multisampled: a, air: b });
             }
+            all.extend([Self::Heat { ldr: a }, Self::Shade { deferred: true, multisampled: false, air: a }]);
+        }
+        for ldr in EITHER {
             for multisampled in EITHER {
                 all.push(Self::Gradient { ldr, multisampled });
                 all.extend(MODELS.map(|model| Self::Air { model, ldr, multisampled }));
@@ -86,8 +96,10 @@ impl Source {
             Self::Isotropic => 0x04,
             Self::Moments { first } => 0x06 + bits(&[first]),
             Self::ViewTables { model } => 0x08 + model as u128,
-            Self::Geometry { ldr, heat, air } => 0x10 + bits(&[ldr, heat, air]),
-            Self::Upsample { ldr, heat, air } => 0x18 + bits(&[ldr, heat, air]),
+            Self::Cast => 0x05,
+            Self::Geometry { scaled, surfaces } => 0x10 + bits(&[scaled, surfaces]),
+            Self::Heat { ldr } => 0x14 + bits(&[ldr]),
+            Self::Shade { deferred, multisampled, air } => 0x18 + bits(&[deferred, multisampled, air]),
             Self::Gradient { ldr, multisampled } => 0x20 + bits(&[ldr, multisampled]),
             Self::Air { model, ldr, multisampled } => 0x30 + 4 * model as u128 + bits(&[ldr, multisampled]),
         }
@@ -104,14 +116,14 @@ impl Source {
             Self::Pyramid => "pyramid",
             Self::Light => "light",
             Self::Clearance => "clearance",
-            Self::Geometry { heat: false, air: false, .. } => "geometry",
-            Self::Geometry { heat: false, air: true, .. } => "geometry_air",
-            Self::Geometry { heat: true, air: false, .. } => "heat",
-            Self::Geometry { heat: true, air: true, .. } => "heat_air",
-            Self::Upsample { heat: false, air: false, .. } => "upsample",
-            Self::Upsample { heat: false, air: true, .. } => "upsample_air",
-            Self::Upsample { heat: true, air: false, .. } => "upsample_heat",
-            Self::Upsample { heat: true, air: true, .. } => "upsample_heat_air",
+            Self::Cast => "cast",
+            Self::Geometry { scaled: false, surfaces: false } => "geometry",
+            Self::Geometry { scaled: true, surfaces: false } => "geometry_scaled",
+            Self::Geometry { scaled: false, surfaces: true } => "geometry_surfaces",
+            Self::Geometry { scaled: true, surfaces: true } => "geometry_scaled_surfaces",
+            Self::Heat { .. } => "heat",
+            Self::Shade { deferred: false, .. } => "shade_forward",
+            Self::Shade { deferred: true, .. } => "shade_deferred",
             Self::Gradient { multisampled: false, .. } => "sky_gradient",
             Self::Gradient { multisampled: true, .. } => "sky_gradient_multisampled",
             Self::Air { multisampled: false, .. } => "sky_air",
@@ -127,12 +139,12 @@ impl Source {
     fn text(self) -> String {
         match self {
             Self::Pyramid => [SURFACE, include_str!("cache/pyramid.wgsl")].join("\n"),
-            Self::Light => [SURFACE, include_str!("cache/light.wgsl")].join("\n"),
+            Self::Light => [SURFACE, SUN_SEEN, include_str!("cache/light.wgsl")].join("\n"),
             Self::Clearance => [VIEW, SURFACE, include_str!("passes/clearance.wgsl")].join("\n"),
-            Self::Geometry { ldr, heat, air } => geometry(ldr, heat, air),
-            Self::Upsample { ldr, heat, air } => {
-                [&geometry(ldr, heat, air), include_str!("passes/upsample.wgsl")].join("\n")
-            }
+            Self::Cast => [SURFACE, include_str!("passes/cast.wgsl")].join("\n"),
+            Self::Geometry { scaled, surfaces } => geometry(scaled, surfaces),
+            Self::Heat { ldr } => heat(ldr),
+            Self::Shade { deferred, multisampled, air } => shade(deferred, multisampled, air),
             Self::Gradient { ldr, multisampled } => {
                 [&sky_common(ldr, multisampled), gradient::WGSL, include_str!("passes/sky_gradient.wgsl")].join("\n")
             }
@@ -168,34 +180,57 @@ pub fn add_shaders(shaders: &mut Assets<Shader>) {
     }
 }
 
-/// The fill pass behind a field's kernel and the stamps.
+/// The fill pass behind the kernel of a terrain's height and material, and the stamps.
 pub fn fill_source(kernel: &str) -> String {
-    [kernel, stamp::WGSL, include_str!("cache/material.wgsl"), include_str!("cache/fill.wgsl")].join("\n")
+    [kernel, stamp::WGSL, include_str!("cache/fill.wgsl")].join("\n")
 }
 
 fn present(ldr: bool) -> &'static str {
     if ldr { include_str!("passes/present_ldr.wgsl") } else { PRESENT_HDR }
 }
 
-fn geometry(ldr: bool, heat: bool, air: bool) -> String {
+/// The march of a pixel's ray.
+fn rays(counted: bool) -> String {
+    [
+        if counted { COUNTED } else { UNCOUNTED },
+        VIEW,
+        SURFACE,
+        include_str!("cache/march.wgsl"),
+        include_str!("passes/clear_start.wgsl"),
+        include_str!("passes/geometry.wgsl"),
+    ]
+    .join("\n")
+}
+
+fn geometry(scaled: bool, surfaces: bool) -> String {
+    let rays = rays(false);
+    let found = if scaled { include_str!("passes/upsample.wgsl") } else { include_str!("passes/whole.wgsl") };
+    if surfaces {
+        [&rays, found, LOOK, MOTION, include_str!("passes/surfaces.wgsl")].join("\n")
+    } else {
+        [&rays, found, include_str!("passes/depth_alone.wgsl")].join("\n")
+    }
+}
+
+fn heat(ldr: bool) -> String {
+    [present(ldr), &rays(true), SUN_SEEN, LOOK, SUNLIT, MOTION, include_str!("passes/heat.wgsl")].join("\n")
+}
+
+/// Bevy's groups 0 and 1 come first: ours is 2.
+fn shade(deferred: bool, multisampled: bool, air: bool) -> String {
     let daylight = if air {
         let parts = [light::BASE, light::TRANSMITTANCE, light::HARMONICS, sun::WGSL, AIR_VIEW];
         [&parts[..], &[include_str!("passes/daylight_air.wgsl")]].concat().join("\n")
     } else {
         include_str!("passes/daylight_plain.wgsl").to_owned()
     };
-    [
-        present(ldr),
-        if heat { HEAT } else { NO_HEAT },
-        VIEW,
-        SURFACE,
-        include_str!("cache/march.wgsl"),
-        include_str!("passes/clear_start.wgsl"),
-        include_str!("passes/heat.wgsl"),
-        &daylight,
-        include_str!("passes/geometry.wgsl"),
-    ]
-    .join("\n")
+    let depth = if multisampled { DEPTH_MULTISAMPLED } else { DEPTH_SINGLE };
+    let entry =
+        if deferred { include_str!("passes/shade_deferred.wgsl") } else { include_str!("passes/shade_forward.wgsl") };
+    let shade = include_str!("passes/shade.wgsl");
+    let bindings = include_str!("passes/shade_bindings.wgsl");
+    let parts = [bindings, VIEW, SURFACE, SUN_SEEN, LOOK, SUNLIT, depth, &daylight, shade, entry];
+    parts.join("\n").replace("@group(0)", "@group(2)")
 }
 
 fn sky_common(ldr: bool, multisampled: bool) -> String {
@@ -216,17 +251,11 @@ fn air_model(model: SkyModel) -> String {
 }
 
 /// Every shader of this crate that stands without Bevy's imports, by name: for tests that translate them to other
-/// shading languages. `kernel` is a field's, from [`horizon_field::field::kernel`].
+/// shading languages. `kernel` is a terrain's, from [`CompiledMaterial::kernel`](horizon_field::material::CompiledMaterial::kernel).
 pub fn shader_sources(kernel: &str) -> Vec<(&'static str, String)> {
     let alone = |source: &Source| {
-        use Source::{Air, Geometry, Gradient, Upsample};
-        !matches!(
-            source,
-            Geometry { ldr: true, .. }
-                | Upsample { ldr: true, .. }
-                | Gradient { ldr: true, .. }
-                | Air { ldr: true, .. }
-        )
+        use Source::{Air, Gradient, Heat, Shade};
+        !matches!(source, Shade { .. } | Heat { ldr: true } | Gradient { ldr: true, .. } | Air { ldr: true, .. })
     };
     let own = Source::all().into_iter().filter(alone).map(|source| (source.name(), source.text()));
     [("fill", fill_source(kernel))].into_iter().chain(own).collect()

@@ -3,11 +3,12 @@
 use bevy::math::{IVec2, Mat3, Mat4, UVec3, Vec2, Vec3, Vec4};
 use bevy::render::render_resource::ShaderType;
 
+use horizon_field::material::{CompiledMaterial, ROWS};
 use horizon_light::models::air::Air;
 use horizon_light::sun::SunDisc;
 
 use super::cache::clipmap::{DrawnLevel, MAX_LEVELS};
-use crate::world::{Atmosphere, TerrainMaterial};
+use crate::world::Atmosphere;
 
 /// `Level` of `surface.wgsl`.
 #[derive(Clone, Copy, Debug, Default, ShaderType)]
@@ -82,40 +83,15 @@ impl SunUniform {
     }
 }
 
-/// `Material` of `material.wgsl`.
+/// `Material` of horizon_field's `material.wgsl`, in rows.
 #[derive(Clone, Debug, PartialEq, ShaderType)]
 pub struct MaterialUniform {
-    pub mud: Vec4,
-    pub sand: Vec4,
-    pub grass: Vec4,
-    pub dry_grass: Vec4,
-    pub rock: Vec4,
-    pub strata: Vec4,
-    pub snow: Vec4,
-    pub boundaries: Vec4,
-    pub softness: Vec4,
-    pub grass_flatness: f32,
-    pub snow_flatness: f32,
-    pub strata_thickness: f32,
+    pub rows: [Vec4; ROWS],
 }
 
 impl MaterialUniform {
-    pub fn new(material: &TerrainMaterial) -> Self {
-        let colour = |rgb: [f32; 3], gloss: f32| Vec3::from_array(rgb).extend(gloss);
-        Self {
-            mud: colour(material.mud, 0.5),
-            sand: colour(material.sand, 0.2),
-            grass: colour(material.grass, 0.12),
-            dry_grass: colour(material.dry_grass, 0.1),
-            rock: colour(material.rock, 0.25),
-            strata: colour(material.strata, 0.25),
-            snow: colour(material.snow, 0.6),
-            boundaries: Vec4::from_array(material.boundaries),
-            softness: Vec4::from_array(material.softness),
-            grass_flatness: material.grass_flatness,
-            snow_flatness: material.snow_flatness,
-            strata_thickness: material.strata_thickness,
-        }
+    pub fn new(material: &CompiledMaterial) -> Self {
+        Self { rows: material.rows().map(Vec4::from_array) }
     }
 }
 
@@ -141,6 +117,9 @@ pub struct HorizonViewUniform {
     pub columns: UVec3,
     pub rings: Vec2,
     pub sun_towards: Vec3,
+    pub self_shadow: u32,
+    pub clip_from_offset: Mat4,
+    pub previous_clip_from_offset: Mat4,
 }
 
 /// `GradientAir` of `sky_gradient.wgsl`.

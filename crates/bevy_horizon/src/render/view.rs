@@ -36,6 +36,13 @@ pub struct ViewGround {
     pub offsets: [u32; 3],
 }
 
+/// How a view stood in the last frame: for motion vectors.
+#[derive(Component, Clone, Copy)]
+pub struct ViewBefore {
+    eye: Place,
+    clip_from_offset: Mat4,
+}
+
 /// How a view's air is drawn.
 #[derive(Clone, Debug)]
 pub enum ViewSky {
@@ -73,10 +80,13 @@ type Views<'w, 's> = Query<
         &'static ExtractedCamera,
         Option<&'static TemporalJitter>,
         Option<&'static MainPassResolutionOverride>,
+        Option<&'static mut ViewBefore>,
+        Entity,
     ),
 >;
 
 pub fn prepare_views(
+    mut commands: Commands,
     mut uniforms: ResMut<HorizonViews>,
     world: Res<ExtractedWorld>,
     caches: Res<Caches>,
@@ -88,7 +98,7 @@ pub fn prepare_views(
 ) {
     uniforms.views.clear();
     uniforms.gradients.clear();
-    for (mut ground, camera, view, extracted, jitter, resolution) in &mut views {
+    for (mut ground, camera, view, extracted, jitter, resolution, before, entity) in &mut views {
         let size = resolution.map(|size| size.0).or(extracted.physical_viewport_size);
         let size = size.unwrap_or(UVec2::ONE).max(UVec2::ONE);
         let mut clip_from_view = view.clip_from_view;
@@ -109,6 +119,18 @@ pub fn prepare_views(
             Table::new(ray, pixel, caches.0[cache].reach(camera.camera.far))
         });
         let table = ground.table.unwrap_or_default();
+        let now = ViewBefore {
+            eye: ground.eye,
+            clip_from_offset: view.clip_from_view * Mat4::from_mat3(rotation.transpose()),
+        };
+        let last = before.as_deref().copied().unwrap_or(now);
+        let moved = Vec3::from(now.eye.minus(&last.eye).map(|d| d as f32));
+        match before {
+            Some(mut before) => *before = now,
+            None => {
+                commands.entity(entity).insert(now);
+            }
+        }
         let uniform = HorizonViewUniform {
             view_from_clip,
             clip_from_view,
@@ -129,6 +151,9 @@ pub fn prepare_views(
             columns: table.columns,
             rings: table.rings,
             sun_towards: world.sun.map_or(Vec3::Y, |sun| sun.direction),
+            self_shadow: u32::from(world.shading_sun().is_some()),
+            clip_from_offset: now.clip_from_offset,
+            previous_clip_from_offset: last.clip_from_offset * Mat4::from_translation(moved),
         };
         ground.offsets[0] = uniforms.views.push(&uniform);
         // `clamp` keeps NaN, which the comparison then takes for the whole size.

@@ -3,13 +3,14 @@
 use std::sync::Arc;
 
 use bevy::prelude::*;
+use horizon_field::material::{CompiledMaterial, MaterialError};
 use horizon_field::stamp::StampError;
 use horizon_field::{Compiled, FieldError};
 use thiserror::Error;
 
-use super::{CompiledStamps, ParamError, Terrain, TerrainMaterial, check_params};
+use super::{CompiledStamps, ParamError, Terrain};
 
-/// What [`Terrain`] became: the compiled height field and the noises of its material. Shared with queries and renderer.
+/// What [`Terrain`] became: the compiled height field and the compiled material. Shared with queries and renderer.
 /// After a bad edit the last good one stays.
 #[derive(Component, Clone, Debug)]
 pub struct CompiledTerrain(pub(crate) Arc<TerrainFields>);
@@ -17,12 +18,7 @@ pub struct CompiledTerrain(pub(crate) Arc<TerrainFields>);
 #[derive(Debug)]
 pub(crate) struct TerrainFields {
     pub height: Compiled<2>,
-    #[cfg_attr(not(feature = "render"), expect(dead_code, reason = "only the picture has a look"))]
-    pub material: TerrainMaterial,
-    #[cfg_attr(not(feature = "render"), expect(dead_code, reason = "only the picture has a look"))]
-    pub edge: Compiled<2>,
-    #[cfg_attr(not(feature = "render"), expect(dead_code, reason = "only the picture has a look"))]
-    pub tint: Compiled<2>,
+    pub material: CompiledMaterial,
 }
 
 impl CompiledTerrain {
@@ -31,21 +27,20 @@ impl CompiledTerrain {
     /// # Errors
     /// A parameter out of range, or a field that makes no sense; both name the place.
     pub fn new(terrain: &Terrain) -> Result<Self, TerrainError> {
-        check_params("terrain.material", &terrain.material)?;
-        if !terrain.material.boundaries.is_sorted() {
-            return Err(TerrainError::Boundaries(terrain.material.boundaries));
-        }
         Ok(Self(Arc::new(TerrainFields {
             height: terrain.field.compile(&terrain.images)?,
-            material: terrain.material.clone(),
-            edge: terrain.material.edge.field().compile(&terrain.images)?,
-            tint: terrain.material.tint.field().compile(&terrain.images)?,
+            material: terrain.material.compile(&terrain.images)?,
         })))
     }
 
     /// The height field.
     pub fn height(&self) -> &Compiled<2> {
         &self.0.height
+    }
+
+    /// The material: [`CompiledMaterial::look`] says how a place looks, and which layers show there.
+    pub fn material(&self) -> &CompiledMaterial {
+        &self.0.material
     }
 }
 
@@ -59,9 +54,9 @@ pub enum TerrainError {
     /// A parameter is out of its range.
     #[error(transparent)]
     Param(#[from] ParamError),
-    /// The heights of the material's boundaries do not rise.
-    #[error("terrain.material.boundaries is {0:?}, but must rise")]
-    Boundaries([f32; 4]),
+    /// The material makes no sense.
+    #[error(transparent)]
+    Material(#[from] MaterialError),
     /// A stamp makes no sense.
     #[error(transparent)]
     Stamp(#[from] StampError),

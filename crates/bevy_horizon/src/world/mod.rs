@@ -3,7 +3,6 @@
 mod air_light;
 mod atmosphere;
 mod compiled;
-mod material;
 mod origin;
 mod param;
 #[cfg(feature = "render")]
@@ -20,7 +19,10 @@ pub use atmosphere::{Atmosphere, SkyGradient, SkyModel};
 pub(crate) use compiled::TerrainFields;
 pub use compiled::{CompiledTerrain, TerrainError, TerrainRejected};
 pub(crate) use compiled::{compile_terrain, forget_terrain};
-pub use material::{NoiseLayer, TerrainMaterial};
+pub use horizon_field::material::{
+    CurvatureRule, HeightRule, MaskRule, MaterialError, MaterialLayer, NoiseLayer, NoiseRule, SlopeRule, StrataRule,
+    Surface, TerrainMaterial,
+};
 pub use origin::WorldOrigin;
 pub use param::{ParamError, check_params};
 #[cfg(feature = "render")]

@@ -53,7 +53,7 @@ pub struct Rig<'a> {
     travelled: f64,
 }
 
-const GROUND: [&str; 4] = ["horizon_clearance", "horizon_ground", "horizon_upsample", "horizon_rival"];
+const GROUND: [&str; 4] = ["horizon_clearance", "horizon_ground_scaled", "horizon_ground", "horizon_rival"];
 const FILL: [&str; 3] = ["horizon_fill", "horizon_pyramid", "horizon_light"];
 
 impl<'a> Rig<'a> {

@@ -13,6 +13,9 @@ use crate::noise::Basis;
 use crate::{hash, lattice};
 
 const WALK: &str = include_str!("walk.wgsl");
+const BASE: &str = include_str!("base.wgsl");
+const PLANE_ACCESS: &str = include_str!("plane.wgsl");
+const SPACE_ACCESS: &str = include_str!("space.wgsl");
 const TRIPLANAR: &str = include_str!("triplanar.wgsl");
 
 /// A shader module, without entry point.
@@ -29,6 +32,15 @@ pub struct Kernel {
     pub structure: u64,
 }
 
+impl Kernel {
+    /// The structure is FNV-1a of the source, 64 bits.
+    pub(crate) fn new(source: String) -> Self {
+        let mix = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        let structure = source.bytes().fold(0xcbf2_9ce4_8422_2325, mix);
+        Self { source, structure }
+    }
+}
+
 impl<const D: usize> Compiled<D> {
     /// The field's shader, with its bindings in this group: a [`module`] of one function, `field`.
     pub fn kernel(&self, group: u32) -> Kernel {
@@ -39,19 +51,111 @@ impl<const D: usize> Compiled<D> {
 /// One shader for several fields, each a function by its name. Their layers, anchors, numbers and images lie in the same
 /// buffers, one field's after the other's: see [`Contents`](super::Contents).
 pub fn module<const D: usize>(group: u32, fields: &[(&str, &Compiled<D>)]) -> Kernel {
-    let mut needs = Needs::default();
-    let mut functions = String::new();
-    let mut planes = 0;
-    for (index, (name, field)) in fields.iter().enumerate() {
-        let tree = field.tree();
+    joined(group, fields, None)
+}
+
+/// A [`module`] with `more` fields behind the named ones, which one function reaches by number:
+/// `fn name(shape: u32, index: u32, anchor_base: u32, q: vec2<f32>, cutoff: f32) -> vec3<f32>`. The index counts from the
+/// first of all the fields, and the shape is that of [`shapes`]. Fields of one shape share their code: how many of them
+/// there are is no part of the structure.
+pub fn module_with<const D: usize>(
+    group: u32,
+    fields: &[(&str, &Compiled<D>)],
+    name: &str,
+    more: &[&Compiled<D>],
+) -> Kernel {
+    joined(group, fields, Some((name, more)))
+}
+
+/// The shape of each field, counted from 0 in order of appearance: fields that differ in numbers only have the same.
+pub fn shapes<const D: usize>(fields: &[&Compiled<D>]) -> Vec<usize> {
+    Functions::default().shapes(fields, "shape").1
+}
+
+/// The functions of a module.
+#[derive(Default)]
+struct Functions {
+    text: String,
+    planes: usize,
+    needs: Needs,
+}
+
+impl Functions {
+    /// The function of a tree. Those of its planes are written down.
+    fn tree<const D: usize>(&mut self, tree: &Tree<D>, name: &str) -> String {
+        let first = self.planes;
         for plane in &tree.planes {
-            functions += &function(plane, &format!("field_plane{planes}"), "shift: u32, ", "shift", planes, &mut needs);
-            planes += 1;
+            let name = format!("field_plane{}", self.planes);
+            self.text += &function(plane, &name, "shift: u32, ", "shift", self.planes, &mut self.needs);
+            self.planes += 1;
         }
-        let first_plane = planes - tree.planes.len();
-        functions += &function(tree, &format!("{name}_tree"), "", "0u", first_plane, &mut needs);
-        functions += &entry::<D>(name, index);
+        function(tree, name, "", "0u", first, &mut self.needs)
     }
+
+    /// The different functions of these fields, all by one name, and which of them each field has.
+    fn shapes<const D: usize>(&mut self, fields: &[&Compiled<D>], name: &str) -> (Vec<String>, Vec<usize>) {
+        let mut found: Vec<String> = Vec::new();
+        let shape = |field: &&Compiled<D>| {
+            let text = self.tree(field.tree(), name);
+            found.iter().position(|known| *known == text).unwrap_or_else(|| {
+                found.push(text);
+                found.len() - 1
+            })
+        };
+        let shapes = fields.iter().map(shape).collect();
+        (found, shapes)
+    }
+
+    /// A field's function: it says where the field lies in the buffers, then walks its tree.
+    fn named<const D: usize>(&mut self, name: &str, index: usize, field: &Compiled<D>) {
+        let tree = self.tree(field.tree(), &format!("{name}_tree"));
+        let (point, jet, _) = types(D);
+        self.text += &tree;
+        self.text += &format!(
+            "
+fn {name}(anchor_base: u32, q: {point}, cutoff: f32) -> {jet} {{
+    field_base = field_bases({index}u);
+    return {name}_tree(anchor_base, q, cutoff);
+}}
+"
+        );
+    }
+
+    /// The function of the fields that are reached by number.
+    fn numbered<const D: usize>(&mut self, name: &str, fields: &[&Compiled<D>]) {
+        let tree = format!("{name}_tree");
+        let (point, jet, _) = types(D);
+        let mut branches = String::new();
+        for (shape, text) in self.shapes(fields, &tree).0.into_iter().enumerate() {
+            self.text += &text.replacen(&tree, &format!("{tree}{shape}"), 1);
+            line(&mut branches, format_args!("    if shape == {shape}u {{"));
+            line(&mut branches, format_args!("        return {tree}{shape}(anchor_base, q, cutoff);"));
+            line(&mut branches, format_args!("    }}"));
+        }
+        self.text += &format!(
+            "
+fn {name}(shape: u32, index: u32, anchor_base: u32, q: {point}, cutoff: f32) -> {jet} {{
+    field_base = field_bases(index);
+{branches}    return {jet}(0.0);
+}}
+"
+        );
+    }
+}
+
+fn joined<const D: usize>(
+    group: u32,
+    fields: &[(&str, &Compiled<D>)],
+    more: Option<(&str, &[&Compiled<D>])>,
+) -> Kernel {
+    let mut functions = Functions::default();
+    for (index, (name, field)) in fields.iter().enumerate() {
+        functions.named(name, index, field);
+    }
+    if let Some((name, more)) = more {
+        functions.numbered(name, more);
+    }
+    let Functions { text: functions, planes, needs } = functions;
 
     let mut source = String::new();
     for (binding, (name, of)) in [
@@ -81,78 +185,15 @@ pub fn module<const D: usize>(group: u32, fields: &[(&str, &Compiled<D>)]) -> Ke
         source += part;
         source += "\n";
     });
-    source += BASE;
-    source += if D == 2 { PLANE_ACCESS } else { SPACE_ACCESS };
+    for part in [BASE, if D == 2 { PLANE_ACCESS } else { SPACE_ACCESS }] {
+        source += part;
+        source += "\n";
+    }
     for (rule, basis, dimensions) in &needs.octaves {
         source += &octaves(*rule, *basis, *dimensions);
     }
     source += &functions;
-    let structure = fnv(source.as_bytes());
-    Kernel { source, structure }
-}
-
-/// A field's function: it says where the field lies in the buffers, then walks its tree.
-fn entry<const D: usize>(name: &str, index: usize) -> String {
-    let (point, jet, _) = types(D);
-    format!(
-        "
-fn {name}(anchor_base: u32, q: {point}, cutoff: f32) -> {jet} {{
-    field_base = field_bases({index}u);
-    return {name}_tree(anchor_base, q, cutoff);
-}}
-"
-    )
-}
-
-/// Where the field that is being evaluated begins: its numbers, layers, blocks of image words, and anchors at a place.
-const BASE: &str = "
-var<private> field_base: vec4<u32>;
-
-fn field_bases(index: u32) -> vec4<u32> {
-    let at = 4u * index;
-    return vec4<u32>(vec4<f32>(field_numbers[at], field_numbers[at + 1u], field_numbers[at + 2u], field_numbers[at + 3u]));
-}
-
-fn field_number(i: u32) -> f32 {
-    return field_numbers[field_base.x + i];
-}
-";
-
-/// A plane's layers lie in the arrays as they are.
-const PLANE_ACCESS: &str = "
-fn layer_at2(i: u32) -> Layer2 {
-    return field_layers[field_base.y + i];
-}
-
-fn anchor_at2(i: u32) -> Anchor2 {
-    return field_anchors[field_base.w + i];
-}
-";
-
-/// In space, the layers of projected planes lie in the arrays as layers whose third row and column are absent.
-const SPACE_ACCESS: &str = "
-fn layer_at3(i: u32) -> Layer3 {
-    return field_layers[field_base.y + i];
-}
-
-fn anchor_at3(i: u32) -> Anchor3 {
-    return field_anchors[field_base.w + i];
-}
-
-fn layer_at2(i: u32) -> Layer2 {
-    let layer = field_layers[field_base.y + i];
-    return Layer2(vec4<f32>(layer.row0.xy, layer.row1.xy), layer.seed, 0u, 0u, 0u);
-}
-
-fn anchor_at2(i: u32) -> Anchor2 {
-    let anchor = field_anchors[field_base.w + i];
-    return Anchor2(anchor.fraction.xy, anchor.lo.xy, anchor.hi.xy);
-}
-";
-
-/// FNV-1a, 64 bits.
-fn fnv(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3))
+    Kernel::new(source)
 }
 
 /// Which parts of the library the nodes call.

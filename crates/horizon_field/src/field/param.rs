@@ -33,7 +33,7 @@ impl Numbers for u32 {
     }
 }
 
-impl Numbers for [f64; 2] {
+impl<const N: usize> Numbers for [f64; N] {
     fn numbers(&self, each: &mut dyn FnMut(f64)) {
         self.iter().for_each(|x| each(*x));
     }
@@ -42,6 +42,14 @@ impl Numbers for [f64; 2] {
 impl Numbers for Vec<[f64; 3]> {
     fn numbers(&self, each: &mut dyn FnMut(f64)) {
         self.iter().flatten().for_each(|x| each(*x));
+    }
+}
+
+impl<T: Numbers> Numbers for Option<T> {
+    fn numbers(&self, each: &mut dyn FnMut(f64)) {
+        if let Some(inner) = self {
+            inner.numbers(each);
+        }
     }
 }
 

@@ -12,23 +12,23 @@ use horizon_field::Stamps;
 use horizon_field::field::Contents;
 use horizon_field::stamp::PART_BYTES;
 
-use super::super::kernel::named_fields;
+use super::super::kernel::fields_of;
 use super::super::uniforms::{ClipmapUniform, MaterialUniform, SunUniform};
 use super::CachePipelines;
 use super::clipmap::{Clipmap, DrawnLevel, TILE, TILE_BOUNDS, Tile, Work, place_of};
 use crate::world::TerrainFields;
 
-/// Bytes of a tile: height, looks, bounds, and light, a byte for 2 × 2 texels.
-pub const TILE_BYTES: u64 = 4096 * 4 + LOOK_BYTES + TILE_BOUNDS * 4 + 1024;
-/// Bytes of a tile's looks, the largest of the buffers: for each pair of texels two colours and two normals.
-pub const LOOK_BYTES: u64 = 4096 * 6;
+/// Bytes of a tile: height, looks and bounds.
+pub const TILE_BYTES: u64 = 4096 * 4 + LOOK_BYTES + TILE_BOUNDS * 4;
+/// Bytes of a tile's looks, the largest of the buffers: for each pair of texels two surfaces and two normals, and for each 2 × 2 of them
+/// two bytes of light.
+pub const LOOK_BYTES: u64 = 4096 * 6 + 1024 * 2;
 
 /// What the passes read.
 pub struct CacheBuffers {
     pub heights: Buffer,
     pub bounds: Buffer,
     pub looks: Buffer,
-    pub lights: Buffer,
     pub clipmap: UniformBuffer<ClipmapUniform>,
     layers: Buffer,
     numbers: Buffer,
@@ -62,7 +62,6 @@ impl CacheBuffers {
             heights: stored("horizon_heights", texels * 4),
             bounds: stored("horizon_bounds", TILE_BOUNDS * 4),
             looks: stored("horizon_looks", LOOK_BYTES),
-            lights: stored("horizon_lights", texels / 4),
             clipmap: UniformBuffer::default(),
             layers,
             numbers,
@@ -81,7 +80,7 @@ impl CacheBuffers {
 }
 
 fn field_buffers(fields: &TerrainFields, device: &RenderDevice) -> [Buffer; 3] {
-    let contents = Contents::new(&named_fields(fields).map(|(_, field)| field));
+    let contents = Contents::new(&fields_of(fields));
     [
         filled("horizon_field_layers", &contents.layers, BufferUsages::STORAGE, device),
         filled("horizon_field_numbers", &contents.numbers, BufferUsages::STORAGE, device),
@@ -135,10 +134,11 @@ impl FrameJobs {
         if !work.fill.is_empty() {
             let (mut anchors, mut parts) = (Vec::new(), Vec::new());
             let mut fills = Vec::with_capacity(work.fill.len());
-            let stride = named_fields(fields).iter().map(|(_, field)| field.layer_count()).sum::<usize>() as u32;
+            let all = fields_of(fields);
+            let stride = all.iter().map(|field| field.layer_count()).sum::<usize>() as u32;
             for (i, tile) in work.fill.iter().enumerate() {
                 let place = place_of(*tile);
-                for (_, field) in named_fields(fields) {
+                for field in &all {
                     field.append_anchor_bytes(&field.anchor(&place), &mut anchors);
                 }
                 let texel = f64::from(tile.exponent).exp2();
@@ -231,7 +231,7 @@ impl FrameJobs {
                     buffers.bounds.as_entire_binding(),
                     jobs.as_entire_binding(),
                     sun.as_entire_binding(),
-                    buffers.lights.as_entire_binding(),
+                    buffers.looks.as_entire_binding(),
                 )),
             ));
         }

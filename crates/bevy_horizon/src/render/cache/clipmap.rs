@@ -266,6 +266,11 @@ impl Clipmap {
         self.shaded.push(Area { place: area.place.translated([low[0], 0.0, low[1]]), size, ..*area });
     }
 
+    /// The light has changed, and is made anew once all the ground is there.
+    pub fn relight(&mut self) {
+        self.relight = true;
+    }
+
     /// The light has changed.
     pub fn invalidate_light(&mut self) {
         for level in &mut self.levels {

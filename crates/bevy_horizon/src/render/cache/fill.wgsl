@@ -1,5 +1,5 @@
-// Fills tiles with the field: height, normal and material, once per texel. Follows the field's generated kernel, which
-// declares height(), material_edge() and material_tint(), and stamp.wgsl and material.wgsl.
+// Fills tiles with the field: height, normal and material, once per texel. Follows the terrain's kernel, which declares
+// height(), material_at() and material_packed(), and stamp.wgsl.
 
 struct Job {
     // The tile in the buffers, and its first anchor.
@@ -44,10 +44,10 @@ fn fill(@builtin(global_invocation_id) id: vec3<u32>, @builtin(workgroup_id) gro
     let ground = stamped(job.stamp, job.stamps, q, height(job.anchor, q, cutoff));
     let index = job.tile * 4096u + id.y * 64u + id.x;
     heights[index] = ground.x;
-    let colour = material_at(job.anchor, q, job.texel, cutoff, ground);
-    // Three words a pair of texels: two colours, then both normals.
-    let pair = 3u * (index >> 1u);
-    looks[pair + (index & 1u)] = pack4x8unorm(colour);
+    let look = material_at(job.anchor, q, job.texel, cutoff, ground);
+    // Three words a pair of texels: two looks, then both normals. A tile's looks are 6656 words, see surface.wgsl.
+    let pair = job.tile * 6656u + 3u * ((index & 4095u) >> 1u);
+    looks[pair + (index & 1u)] = material_packed(look, id.xy);
     normals[lane] = pack_normal(ground.yz, id.xy);
     workgroupBarrier();
     if ((lane & 1u) == 0u) {

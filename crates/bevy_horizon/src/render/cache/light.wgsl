@@ -1,7 +1,8 @@
-// How much of the sun's disc a point of the ground sees, for one point in 2 × 2 texels. The ground's horizon towards the
-// sun is the largest (h − h₀) / d; where it stands between the disc's lower and upper edge, part of the disc is hidden:
-// a penumbra as wide as the sun's angular radius makes it, without rays to sample. The pyramid prunes what stays below
-// the horizon found so far. Needs surface.wgsl.
+// How the ground hides the sun's disc, for one point in 2 × 2 texels. The ground's horizon towards the sun is the largest
+// (h − h₀) / d; where it stands between the disc's lower and upper edge, part of the disc is hidden: a penumbra as wide as
+// the sun's angular radius makes it, without rays to sample. Where it hides the whole disc, what matters is how deep the point
+// lies in the shadow, for what stands there above the ground: the largest h − h₀ − d · tan(elevation). The pyramid prunes what stays
+// below what was found so far. Needs surface.wgsl and sun_seen.wgsl.
 
 struct Sun {
     // Level direction towards the sun.
@@ -26,15 +27,9 @@ struct TileJob {
 
 @group(0) @binding(3) var<storage, read> jobs: array<TileJob>;
 @group(0) @binding(4) var<uniform> sun: Sun;
-@group(0) @binding(5) var<storage, read_write> lights: array<u32>;
+@group(0) @binding(5) var<storage, read_write> looks: array<u32>;
 
 const LIGHT_STEPS: u32 = 256u;
-
-// The part of a disc of radius 1 that lies above a line at height x.
-fn disc_above(x: f32) -> f32 {
-    let c = clamp(x, -1.0, 1.0);
-    return 0.5 - (c * sqrt(1.0 - c * c) + asin(c)) / 3.14159265;
-}
 
 // The height of a level at a point, in its texels.
 fn level_height(l: Level, at: vec2<f32>) -> f32 {
@@ -43,8 +38,34 @@ fn level_height(l: Level, at: vec2<f32>) -> f32 {
     return between_corners(stored_corners(l, cell), f.x, f.y);
 }
 
-// The tangent of the ground's elevation towards the sun, between the disc's edges.
-fn horizon(start_level: u32, start: vec2<i32>) -> f32 {
+// What hides the sun: the tangent of its elevation, at least that of the disc's lower edge, and how far away it is. Once it hides all
+// of the disc: how deep the shadow is over the point, in metres, of its own.
+struct Horizon {
+    tangent: f32,
+    depth: f32,
+    d: f32,
+}
+
+// Takes ground of height h, over the point's, at a distance.
+fn raise(found: ptr<function, Horizon>, h: f32, d: f32) {
+    if ((*found).tangent < sun.high) {
+        if (h > (*found).tangent * d) {
+            (*found).tangent = h / d;
+            (*found).d = d;
+            (*found).depth = h - sun.centre * d;
+        }
+    } else if (h - sun.centre * d > (*found).depth) {
+        (*found).depth = h - sun.centre * d;
+        (*found).d = d;
+    }
+}
+
+// Ground over the point that is no higher than this, at a distance, changes nothing.
+fn matters_above(found: Horizon, d: f32) -> f32 {
+    return select(found.depth + sun.centre * d, found.tangent * d, found.tangent < sun.high);
+}
+
+fn horizon(start_level: u32, start: vec2<i32>) -> Horizon {
     var level = start_level;
     var l = clipmap.levels[level];
     var cell = start;
@@ -53,11 +74,11 @@ fn horizon(start_level: u32, start: vec2<i32>) -> f32 {
     var h0 = stored_height(l, start);
     let positive = sun.towards >= vec2<f32>(0.0);
     let inverse = select(1.0 / sun.towards, select(vec2<f32>(-1e30), vec2<f32>(1e30), positive), abs(sun.towards) < vec2<f32>(1e-20));
-    var found = sun.low;
+    var found = Horizon(sun.low, 0.0, l.texel);
     var d = 0.0;
     var mip = 1u;
     for (var step = 0u; step < LIGHT_STEPS; step++) {
-        if (found >= sun.high || h0 + found * d > sun.highest) {
+        if (h0 + matters_above(found, d) > sun.highest) {
             break;
         }
         let low = (((l.base + cell) >> vec2<u32>(mip)) << vec2<u32>(mip)) - l.base;
@@ -68,18 +89,18 @@ fn horizon(start_level: u32, start: vec2<i32>) -> f32 {
             let h = stored_corners(l, cell);
             let at = origin + sun.towards * l.per_metre * d_exit - vec2<f32>(cell);
             if (d_exit > 0.75 * l.texel) {
-                found = max(found, (between_corners(h, at.x, at.y) - h0) / d_exit);
+                raise(&found, between_corners(h, at.x, at.y) - h0, d_exit);
             }
         } else {
             let b = stored_bounds(l, cell, mip);
-            if (b.y - h0 > min(found * d, found * d_exit)) {
+            if (b.y - h0 > min(matters_above(found, d), matters_above(found, d_exit))) {
                 // A node whose relief is a fraction of the sun's disc is as good as a point.
                 if (b.y - b.x > 0.25 * sun.radius * d) {
                     mip -= 1u;
                     cell = clamp(vec2<i32>(floor(origin + sun.towards * l.per_metre * d)), low, high - vec2<i32>(1));
                     continue;
                 }
-                found = max(found, (0.5 * (b.x + b.y) - h0) / max(0.5 * (d + d_exit), l.texel));
+                raise(&found, 0.5 * (b.x + b.y) - h0, max(0.5 * (d + d_exit), l.texel));
             }
         }
         d = d_exit;
@@ -114,19 +135,21 @@ fn horizon(start_level: u32, start: vec2<i32>) -> f32 {
     return found;
 }
 
-// What a group found, before four bytes at a time become words.
-var<workgroup> seen: array<f32, 64>;
+// What a group found, before two points become a word.
+var<workgroup> seen: array<u32, 64>;
 
 @compute @workgroup_size(8, 8, 1)
 fn light(@builtin(global_invocation_id) id: vec3<u32>, @builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let job = jobs[group.z];
     let cell = job.cell + vec2<i32>(id.xy * 2u);
-    let x = (horizon(job.level, cell) - sun.centre) / (sun.high - sun.centre);
-    seen[lane] = disc_above(x);
+    let found = horizon(job.level, cell);
+    let penumbra = (sun.high - sun.centre) * found.d;
+    let hidden = (found.tangent - sun.centre) / (sun.high - sun.centre);
+    seen[lane] = packed_sun(select(hidden, max(found.depth / penumbra, 1.0), hidden >= 1.0), penumbra);
     workgroupBarrier();
-    if ((lane & 3u) == 0u) {
+    if ((lane & 1u) == 0u) {
         let l = clipmap.levels[job.level];
-        let word = pack4x8unorm(vec4<f32>(seen[lane], seen[lane + 1u], seen[lane + 2u], seen[lane + 3u]));
-        lights[tile_of(l, wrapped(l, cell)) * TILE_LIGHTS + ((id.y * 32u + id.x) >> 2u)] = word;
+        let word = seen[lane] | (seen[lane + 1u] << 16u);
+        looks[tile_of(l, wrapped(l, cell)) * TILE_LOOKS + LIGHTS_AT + ((id.y * 32u + id.x) >> 1u)] = word;
     }
 }

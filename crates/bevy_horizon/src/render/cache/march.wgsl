@@ -45,16 +45,6 @@ fn first_root(q0: f32, q1: f32, q2: f32, length: f32) -> f32 {
     return s;
 }
 
-// The finest level that draws the ground at this point.
-fn level_at(p: vec2<f32>) -> u32 {
-    let c = max(abs(p.x), abs(p.y));
-    var level = 0u;
-    while (level < clipmap.count && c >= clipmap.levels[level].outer * clipmap.levels[level].texel) {
-        level++;
-    }
-    return level;
-}
-
 // When the ray enters the square of half-width r around the centre; a large number where it does not.
 fn enters_square(ray: Ray, inverse: vec2<f32>, r: f32) -> f32 {
     let a = (vec2<f32>(-r) - ray.origin.xz) * inverse;

@@ -22,7 +22,7 @@ use self::demand::Demand;
 pub(crate) use self::demand::pixel_size;
 pub(crate) use self::pipelines::CachePipelines;
 use super::extract::{ExtractedAtmosphere, ExtractedHorizonCamera, ExtractedTerrain, ExtractedWorld};
-use super::passes::{ClearancePipeline, ViewClearance, ViewPasses};
+use super::passes::{ClearancePipeline, ViewClearance, ViewGeometry, ViewPasses, ViewShade};
 use super::ready::Progress;
 use super::uniforms::{GradientUniform, SunUniform};
 use super::view::{ViewGround, ViewSky};
@@ -55,6 +55,9 @@ impl Caches {
         self.0.iter().map(|cache| cache.filled).sum()
     }
 }
+
+/// Of more stamps that change at once, no shadow is followed: all is lit again.
+const MOST_SHADOWS: usize = 16;
 
 /// The ground around one or more cameras.
 pub(crate) struct Cache {
@@ -111,7 +114,7 @@ pub(crate) fn prepare_caches(
         let air = world.air(&camera.layers);
         let terrain = terrain_of(camera);
         if terrain.is_none() && air.is_none() {
-            commands.entity(entity).remove::<(ViewGround, ViewPasses, ViewClearance)>();
+            commands.entity(entity).remove::<(ViewGround, ViewPasses, ViewGeometry, ViewShade, ViewClearance)>();
             continue;
         }
         if terrain.is_some() && camera.cached {
@@ -221,6 +224,12 @@ impl Cache {
         Vec3::new(x as f32, y as f32, z as f32)
     }
 
+    /// The lowest and the highest that the ground may be, in metres above the datum.
+    pub fn heights(&self) -> [f32; 2] {
+        let (low, high) = self.stamps.range(self.fields.height.range());
+        [low as f32, high as f32]
+    }
+
     /// From the finest texels that are drawn out to where the ground ends, at most `far`, in metres.
     pub fn reach(&self, far: f32) -> [f32; 2] {
         let mut drawn = self.drawn.iter().filter(|level| level.outer > 0.0).map(|level| (level.exponent as f32).exp2());
@@ -260,17 +269,16 @@ impl Cache {
         self.jobs.bind(&self.buffers, pipelines, pipeline_cache, device);
     }
 
-    /// The lowest and the highest that the ground may be, in metres above the datum.
-    pub fn heights(&self) -> [f32; 2] {
-        let (low, high) = self.stamps.range(self.fields.height.range());
-        [low as f32, high as f32]
-    }
-
     /// The ground has other stamps: what they change is filled again, and lit as far as its shadow may reach.
     fn stamp(&mut self, stamps: &Arc<Stamps>) {
-        for area in self.stamps.changes(stamps) {
-            let shadow = self.sun.map_or([0.0; 2], |sun| self.shadow(sun, &area, stamps));
+        let areas = self.stamps.changes(stamps);
+        let few = areas.len() <= MOST_SHADOWS;
+        for area in areas {
+            let shadow = self.sun.filter(|_| few).map_or([0.0; 2], |sun| self.shadow(sun, &area, stamps));
             self.clipmap.invalidate_area(&area, shadow);
+        }
+        if !few {
+            self.clipmap.relight();
         }
         self.stamps = stamps.clone();
     }
@@ -301,10 +309,10 @@ impl Cache {
         away.map(|away| away * reach)
     }
 
-    /// The sun that the ground is lit by. It is followed in steps of a fifth of its radius, which no penumbra shows, and
+    /// The sun that casts shadows. It is followed in steps of a fifth of its radius, which no penumbra shows, and
     /// none while it is down.
     fn sun(&mut self, world: &ExtractedWorld) -> Option<SunUniform> {
-        let Some((sun, radius)) = world.risen_sun() else {
+        let Some((sun, radius)) = world.shading_sun() else {
             self.sun = None;
             return None;
         };

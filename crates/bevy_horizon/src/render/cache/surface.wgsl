@@ -39,8 +39,9 @@ const TILE_TEXELS: u32 = 4096u;
 // In words: what bounds are counted from and in, in metres, then two numbers of 16 bits a node.
 const TILE_BOUNDS: u32 = 1367u;
 const BOUNDS_HEAD: u32 = 2u;
-// In words: 32 × 32 points, 8 bits each.
-const TILE_LIGHTS: u32 = 256u;
+// In words: for each pair of texels two surfaces and their two normals; then how 32 × 32 points see the sun, 16 bits each.
+const TILE_LOOKS: u32 = 6656u;
+const LIGHTS_AT: u32 = 6144u;
 
 // A cell's index along each axis of a level's storage: brought into 0 .. n, from at most n outside.
 fn wrapped(l: Level, cell: vec2<i32>) -> vec2<u32> {
@@ -142,4 +143,14 @@ fn node_bounds(l: Level, level: u32, cell: vec2<i32>, low: vec2<i32>, mip: u32) 
         b = vec2<f32>(min(b.x, c.x), max(b.y, c.y));
     }
     return b;
+}
+
+// The finest level that draws the ground at this point.
+fn level_at(p: vec2<f32>) -> u32 {
+    let c = max(abs(p.x), abs(p.y));
+    var level = 0u;
+    while (level < clipmap.count && c >= clipmap.levels[level].outer * clipmap.levels[level].texel) {
+        level++;
+    }
+    return level;
 }

@@ -8,10 +8,12 @@ fn transmittance_texel(x: u32, y: u32) -> vec3<f32> {
     return transmittances[y * TRANSMITTANCE_SIZE.x + x].rgb;
 }
 
+// Whether the sun is the air's to dim, or the scene has a light of its own.
+fn daylight_is_own() -> bool {
+    return air.own_sun != 0u;
+}
+
 fn sunlight_at(p: vec3<f32>) -> vec3<f32> {
-    if (air.own_sun == 0u) {
-        return view.sun;
-    }
     // The vertical turns as one goes over the planet.
     let medium = air.medium;
     let h = clamp(p.y - air.datum, 0.0, medium.height);
@@ -26,9 +28,6 @@ fn sunlight_at(p: vec3<f32>) -> vec3<f32> {
 }
 
 fn skylight_on(normal: vec3<f32>) -> vec3<f32> {
-    if (air.own_sun == 0u) {
-        return view.ambient * mix(0.35, 1.0, 0.5 + 0.5 * normal.y);
-    }
     // Irradiance of a cosine lobe over π, as horizon_light's moments.rs has it.
     let above = max(normal.y, 0.0) * max(normal.y, 0.0);
     let level = max(length(air.sun.xz), 1e-6);

@@ -1,17 +1,24 @@
-//! The passes of a view: the ground before Bevy's opaque meshes, so that depth sorts the two; the air after them, over
-//! both.
+//! The passes of a view: the ground's geometry before the main pass, so that depth sorts it among what Bevy draws; its light, before
+//! Bevy's opaque meshes; the air after them, over all.
 
+mod cast;
 mod clearance;
 mod draw;
+mod geometry;
 mod pipelines;
-mod scaled;
+mod shade;
+mod target;
 
 use bevy::app::SubApp;
 use bevy::core_pipeline::Core3d;
 use bevy::core_pipeline::core_3d::{main_opaque_pass_3d, main_transparent_pass_3d};
+use bevy::core_pipeline::mip_generation::experimental::depth::early_downsample_depth;
+use bevy::core_pipeline::prepass::node::late_prepass;
 use bevy::core_pipeline::schedule::Core3dSystems;
 use bevy::core_pipeline::tonemapping::{Tonemapping, TonemappingLuts, get_lut_bindings};
-use bevy::pbr::{main_transmissive_pass_3d, screen_space_reflections};
+use bevy::pbr::{
+    LATE_SHADOW_PASS, main_transmissive_pass_3d, per_view_shadow_pass, screen_space_reflections, shared_shadow_pass,
+};
 use bevy::prelude::*;
 use bevy::render::camera::ExtractedCamera;
 use bevy::render::render_asset::RenderAssets;
@@ -20,13 +27,15 @@ use bevy::render::render_resource::{
     DynamicBindGroupEntries, PipelineCache, TextureUsages,
 };
 use bevy::render::renderer::RenderDevice;
-use bevy::render::texture::{FallbackImage, GpuImage, TextureCache};
+use bevy::render::texture::{FallbackImage, GpuImage};
 use bevy::render::view::{ExtractedView, ViewDepthTexture, ViewUniforms};
 
+pub use self::cast::{CastPipeline, prepare_casts};
 pub use self::clearance::{ClearancePipeline, Table, ViewClearance};
+pub use self::geometry::{GeometryPipelines, ViewGeometry, bind_geometry, prepare_geometry};
 pub use self::pipelines::PassPipelines;
 use self::pipelines::{Pass, PassKey, Variant};
-use self::scaled::Scaled;
+pub use self::shade::{ShadePipelines, ViewShade, bind_shade, prepare_shade};
 use super::air::{AirTables, ViewAir};
 use super::cache::Caches;
 use super::extract::ExtractedHorizonCamera;
@@ -34,17 +43,14 @@ use super::view::{HorizonViews, ViewGround, ViewSky};
 use crate::camera::DebugView;
 use crate::world::SkyModel;
 
-/// A view's passes: pipelines, bind groups and the offsets into them.
+/// A view's debug view and air: pipelines, and what they bind.
 #[derive(Component, Default)]
 pub struct ViewPasses {
     ldr: bool,
     /// By [`Pass`].
-    pipelines: [Option<CachedRenderPipelineId>; 5],
-    groups: [Option<BindGroup>; 5],
-    clearance: Option<BindGroup>,
-    scaled: Option<Scaled>,
-    heat: bool,
-    /// Whether the ground is lit by air that has tables.
+    pipelines: [Option<CachedRenderPipelineId>; 4],
+    groups: [Option<BindGroup>; 4],
+    /// Whether the air has tables.
     air: bool,
 }
 
@@ -63,11 +69,19 @@ impl ViewTruths {
     }
 }
 
-/// Adds the ground's pass to the schedule of 3D views.
+/// Adds the ground's passes to the schedule of 3D views.
 pub fn add_ground(render_app: &mut SubApp) {
     render_app.add_systems(
         Core3d,
-        draw::draw_ground.after(screen_space_reflections).before(main_opaque_pass_3d).in_set(Core3dSystems::MainPass),
+        (
+            geometry::draw_geometry.after(early_downsample_depth).before(late_prepass).in_set(Core3dSystems::Prepass),
+            cast::draw_cascades.after(per_view_shadow_pass::<LATE_SHADOW_PASS>).before(Core3dSystems::MainPass),
+            cast::draw_shared.after(shared_shadow_pass::<LATE_SHADOW_PASS>).before(Core3dSystems::MainPass),
+            (shade::draw_shade.before(screen_space_reflections), draw::draw_heat.after(screen_space_reflections))
+                .chain()
+                .before(main_opaque_pass_3d)
+                .in_set(Core3dSystems::MainPass),
+        ),
     );
 }
 
@@ -102,8 +116,6 @@ type Views<'w, 's> = Query<
 
 pub fn prepare_pipelines(
     mut commands: Commands,
-    mut textures: ResMut<TextureCache>,
-    device: Res<RenderDevice>,
     mut pipelines: ResMut<PassPipelines>,
     cache: Res<PipelineCache>,
     views: Views,
@@ -113,25 +125,21 @@ pub fn prepare_pipelines(
             format: view.target_format,
             samples: msaa.samples(),
             tonemapping: tonemapping.copied().filter(|_| !camera.hdr),
-            heat: horizon.camera.debug != DebugView::None,
             air: ground.sky.as_ref().map_or(SkyModel::Gradient, ViewSky::model),
         };
         let air = key.air != SkyModel::Gradient;
-        let scaled = ground.cache.and(ground.scaled);
-        let ground_key = PassKey { samples: if scaled.is_some() { 1 } else { key.samples }, ..key };
+        let heat = ground.cache.is_some() && horizon.camera.debug != DebugView::None;
+        let mut get = |wanted: bool, pass| wanted.then(|| pipelines.get(&cache, pass, key));
         commands.entity(entity).insert(ViewPasses {
             ldr: key.tonemapping.is_some(),
+            // In the order of `Pass::ALL`.
             pipelines: [
-                ground.cache.map(|_| pipelines.get(&cache, Pass::Ground, ground_key)),
-                scaled.map(|_| pipelines.get(&cache, Pass::Upsample, key)),
-                air.then(|| pipelines.get(&cache, Pass::Veil, PassKey { heat: false, ..key })),
-                ground.sky.is_some().then(|| pipelines.get(&cache, Pass::Haze, PassKey { heat: false, ..key })),
-                ground.sky.is_some().then(|| pipelines.get(&cache, Pass::Sky, PassKey { heat: false, ..key })),
+                get(heat, Pass::Heat),
+                get(air, Pass::Veil),
+                get(ground.sky.is_some(), Pass::Haze),
+                get(ground.sky.is_some(), Pass::Sky),
             ],
-            groups: [const { None }; 5],
-            clearance: None,
-            scaled: scaled.map(|size| Scaled::new(size, key.format, &mut textures, &device)),
-            heat: key.heat,
+            groups: [const { None }; 4],
             air,
         });
     }
@@ -166,7 +174,6 @@ pub fn prepare_bind_groups(
     uniforms: Res<HorizonViews>,
     caches: Res<Caches>,
     pipelines: Res<PassPipelines>,
-    clearances: Res<ClearancePipeline>,
     airs: Res<AirTables>,
     pipeline_cache: Res<PipelineCache>,
     device: Res<RenderDevice>,
@@ -184,7 +191,7 @@ pub fn prepare_bind_groups(
             &tonemappers.fallback,
         );
         let multisampled = msaa.samples() > 1;
-        let (heat, scaled, lit) = (passes.heat, passes.scaled.is_some(), passes.air);
+        let lit = passes.air;
         let create = |pass: Pass, entries: &[BindGroupEntry]| {
             let mut entries = entries.to_vec();
             if ldr {
@@ -192,12 +199,7 @@ pub fn prepare_bind_groups(
                     DynamicBindGroupEntries::new_with_indices(((10, bevy_view.clone()), (11, lut.0), (12, lut.1)));
                 entries.extend_from_slice(&tonemapping);
             }
-            let variant = Variant {
-                ldr,
-                multisampled: multisampled && !(scaled && pass == Pass::Ground),
-                heat: heat && !pass.is_air(),
-                air: lit,
-            };
+            let variant = Variant { ldr, multisampled, air: lit };
             let layout = pipeline_cache.get_bind_group_layout(pipelines.layout(pass, variant));
             device.create_bind_group("horizon_pass", &layout, &entries)
         };
@@ -206,43 +208,24 @@ pub fn prepare_bind_groups(
             _ => None,
         };
         let tables = uniforms.airs.binding().zip(table);
-        if let Some(cache) = ground.cache.and_then(|cache| caches.0.get(cache))
+        if passes.pipelines[Pass::Heat as usize].is_some()
+            && let Some(cache) = ground.cache.and_then(|cache| caches.0.get(cache))
             && let Some(clipmap) = cache.buffers.clipmap.binding()
             && let Some(clearance) = clearance
         {
             let buffers = &cache.buffers;
-            passes.clearance = clearances.bind(clearance, buffers, &uniforms, &pipeline_cache, &device);
-            let mut entries = DynamicBindGroupEntries::new_with_indices((
+            let unknown = ViewTruths::unknown(&device);
+            let ViewTruths(truths) = truths.unwrap_or(&unknown);
+            let entries = DynamicBindGroupEntries::new_with_indices((
                 (0, clipmap),
                 (1, buffers.heights.as_entire_binding()),
                 (2, buffers.bounds.as_entire_binding()),
                 (3, buffers.looks.as_entire_binding()),
-                (4, buffers.lights.as_entire_binding()),
                 (5, view.clone()),
                 (6, clearance.buffer().as_entire_binding()),
-            ))
-            .to_vec();
-            if let Some((uniform, [transmittances, _])) = &tables {
-                let air = DynamicBindGroupEntries::new_with_indices((
-                    (13, uniform.clone()),
-                    (14, transmittances.as_entire_binding()),
-                ));
-                entries.extend_from_slice(&air);
-            }
-            let unknown = heat.then(|| ViewTruths::unknown(&device));
-            if let Some(unknown) = &unknown {
-                let ViewTruths(truths) = truths.unwrap_or(unknown);
-                entries.push(BindGroupEntry { binding: 9, resource: truths.as_entire_binding() });
-            }
-            passes.groups[Pass::Ground as usize] = Some(create(Pass::Ground, &entries));
-            if let Some(scaled) = &passes.scaled {
-                let drawn = DynamicBindGroupEntries::new_with_indices((
-                    (7, &scaled.colour.default_view),
-                    (8, &scaled.depth.default_view),
-                ));
-                entries.extend_from_slice(&drawn);
-                passes.groups[Pass::Upsample as usize] = Some(create(Pass::Upsample, &entries));
-            }
+                (9, truths.as_entire_binding()),
+            ));
+            passes.groups[Pass::Heat as usize] = Some(create(Pass::Heat, &entries));
         }
         let shared =
             |uniform| DynamicBindGroupEntries::new_with_indices(((0, view.clone()), (1, uniform), (2, depth.view())));

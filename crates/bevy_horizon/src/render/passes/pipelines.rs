@@ -5,7 +5,7 @@ use bevy::core_pipeline::tonemapping::{Tonemapping, get_lut_bind_group_layout_en
 use bevy::platform::collections::HashMap;
 use bevy::prelude::*;
 use bevy::render::render_resource::binding_types::{
-    sampler, storage_buffer_read_only_sized, texture_2d, texture_3d, texture_depth_2d, texture_depth_2d_multisampled,
+    sampler, storage_buffer_read_only_sized, texture_3d, texture_depth_2d, texture_depth_2d_multisampled,
     uniform_buffer,
 };
 use bevy::render::render_resource::{
@@ -24,10 +24,8 @@ use crate::world::SkyModel;
 /// A pass of a view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Pass {
-    /// The ground, one ray a pixel.
-    Ground,
-    /// The ground, from a picture of lower resolution.
-    Upsample,
+    /// A debug view of the ground.
+    Heat,
     /// What the air takes from what was drawn.
     Veil,
     /// What the air adds to what was drawn.
@@ -37,27 +35,23 @@ pub enum Pass {
 }
 
 impl Pass {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Heat, Self::Veil, Self::Haze, Self::Sky];
+
     /// Its name, in pipelines, passes and spans.
     pub const fn label(self) -> &'static str {
         match self {
-            Self::Ground => "horizon_ground",
-            Self::Upsample => "horizon_upsample",
+            Self::Heat => "horizon_heat",
             Self::Veil => "horizon_veil",
             Self::Haze => "horizon_haze",
             Self::Sky => "horizon_sky",
         }
     }
 
-    /// Whether it is one of the air's.
-    pub const fn is_air(self) -> bool {
-        matches!(self, Self::Veil | Self::Haze | Self::Sky)
-    }
-
     /// Its fragment shader's entry point.
     const fn entry(self) -> &'static str {
         match self {
-            Self::Ground => "ground",
-            Self::Upsample => "upsampled",
+            Self::Heat => "shown",
             Self::Veil => "air_veil",
             Self::Haze => "air_haze",
             Self::Sky => "air_sky",
@@ -72,8 +66,6 @@ pub struct PassKey {
     pub samples: u32,
     /// How an LDR view is tonemapped; `None` in HDR.
     pub tonemapping: Option<Tonemapping>,
-    /// Whether the ground's pass is that of a debug view.
-    pub heat: bool,
     /// The model of the air, if there is air.
     pub air: SkyModel,
 }
@@ -88,10 +80,10 @@ pub struct PassPipelines {
 impl Default for PassPipelines {
     fn default() -> Self {
         let mut layouts = HashMap::default();
-        for pass in [Pass::Ground, Pass::Upsample, Pass::Veil, Pass::Haze, Pass::Sky] {
-            for bits in 0..16 {
+        for pass in Pass::ALL {
+            for bits in 0..8 {
                 let bit = |i: u32| bits >> i & 1 != 0;
-                let variant = Variant { ldr: bit(0), multisampled: bit(1), heat: bit(2), air: bit(3) };
+                let variant = Variant { ldr: bit(0), multisampled: bit(1), air: bit(2) };
                 layouts.insert((pass, variant), new_layout(pass, variant));
             }
         }
@@ -104,36 +96,30 @@ impl Default for PassPipelines {
 pub struct Variant {
     pub ldr: bool,
     pub multisampled: bool,
-    pub heat: bool,
     /// Whether the air has tables.
     pub air: bool,
 }
 
 impl PassKey {
     pub fn variant(&self) -> Variant {
-        Variant {
-            ldr: self.tonemapping.is_some(),
-            multisampled: self.samples > 1,
-            heat: self.heat,
-            air: self.air != SkyModel::Gradient,
-        }
+        Variant { ldr: self.tonemapping.is_some(), multisampled: self.samples > 1, air: self.air != SkyModel::Gradient }
     }
 }
 
-fn new_layout(pass: Pass, Variant { ldr, multisampled, heat, air }: Variant) -> BindGroupLayoutDescriptor {
+fn new_layout(pass: Pass, Variant { ldr, multisampled, air }: Variant) -> BindGroupLayoutDescriptor {
     let view = uniform_buffer::<HorizonViewUniform>(true);
     let read = || storage_buffer_read_only_sized(false, None);
     let mut entries = match pass {
-        Pass::Ground | Pass::Upsample => DynamicBindGroupLayoutEntries::new_with_indices(
+        Pass::Heat => DynamicBindGroupLayoutEntries::new_with_indices(
             ShaderStages::FRAGMENT,
             (
                 (0, uniform_buffer::<ClipmapUniform>(false)),
                 (1, read()),
                 (2, read()),
                 (3, read()),
-                (4, read()),
                 (5, view),
                 (6, read()),
+                (9, read()),
             ),
         ),
         Pass::Veil | Pass::Haze | Pass::Sky => DynamicBindGroupLayoutEntries::new_with_indices(
@@ -145,7 +131,7 @@ fn new_layout(pass: Pass, Variant { ldr, multisampled, heat, air }: Variant) -> 
             ),
         ),
     };
-    if air && pass.is_air() {
+    if air && pass != Pass::Heat {
         let volume = || texture_3d(TextureSampleType::Float { filterable: true });
         let linear = sampler(SamplerBindingType::Filtering);
         entries = entries.extend_with_indices((
@@ -157,20 +143,10 @@ fn new_layout(pass: Pass, Variant { ldr, multisampled, heat, air }: Variant) -> 
             (8, linear),
         ));
     }
-    if pass == Pass::Upsample {
-        let colour = texture_2d(TextureSampleType::Float { filterable: false });
-        entries = entries.extend_with_indices(((7, colour), (8, texture_depth_2d())));
-    }
-    if heat && !pass.is_air() {
-        entries = entries.extend_with_indices(((9, read()),));
-    }
     if ldr {
         let [texture, sampler] = get_lut_bind_group_layout_entries();
         entries =
             entries.extend_with_indices(((10, uniform_buffer::<ViewUniform>(true)), (11, texture), (12, sampler)));
-    }
-    if air && !pass.is_air() {
-        entries = entries.extend_with_indices(((13, uniform_buffer::<AirUniform>(true)), (14, read())));
     }
     BindGroupLayoutDescriptor::new("horizon_pass", &entries)
 }
@@ -207,10 +183,9 @@ impl PassPipelines {
             return *id;
         }
         let variant = key.variant();
-        let Variant { ldr, multisampled, heat, air } = variant;
+        let Variant { ldr, multisampled, air } = variant;
         let source = match pass {
-            Pass::Ground => Source::Geometry { ldr, heat, air },
-            Pass::Upsample => Source::Upsample { ldr, heat, air },
+            Pass::Heat => Source::Heat { ldr },
             Pass::Veil | Pass::Haze | Pass::Sky if air => Source::Air { model: key.air, ldr, multisampled },
             Pass::Veil | Pass::Haze | Pass::Sky => Source::Gradient { ldr, multisampled },
         };
@@ -227,10 +202,10 @@ impl PassPipelines {
             },
             depth_stencil: Some(DepthStencilState {
                 format: CORE_3D_DEPTH_FORMAT,
-                depth_write_enabled: Some(!pass.is_air()),
+                depth_write_enabled: Some(pass == Pass::Heat),
                 // The air's fragments lie at infinity, where depth is 0.
                 depth_compare: Some(match pass {
-                    Pass::Ground | Pass::Upsample => CompareFunction::GreaterEqual,
+                    Pass::Heat => CompareFunction::GreaterEqual,
                     Pass::Veil | Pass::Haze => CompareFunction::Less,
                     Pass::Sky => CompareFunction::Equal,
                 }),
@@ -245,10 +220,9 @@ impl PassPipelines {
                 targets: vec![Some(ColorTargetState {
                     format: key.format,
                     blend: match pass {
-                        Pass::Ground | Pass::Upsample => None,
+                        Pass::Heat | Pass::Sky => None,
                         Pass::Veil => Some(THROUGH),
                         Pass::Haze => Some(OVER),
-                        Pass::Sky => None,
                     },
                     write_mask: ColorWrites::ALL,
                 })],

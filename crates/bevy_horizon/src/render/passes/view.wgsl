@@ -30,6 +30,11 @@ struct HorizonView {
     rings: vec2<f32>,
     // Towards the sun, wherever it stands.
     sun_towards: vec3<f32>,
+    // 1 where the cache knows how the ground hides the sun.
+    self_shadow: u32,
+    // From the eye's offsets, along the world's axes, to clip space without jitter: now, and in the last frame.
+    clip_from_offset: mat4x4<f32>,
+    previous_clip_from_offset: mat4x4<f32>,
 }
 
 // Slopes in a column of the clearance table.
