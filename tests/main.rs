@@ -1,6 +1,7 @@
 //! The integration tests: one binary.
 
 mod anchoring;
+mod bodies;
 mod compose;
 mod device;
 mod editing;
@@ -12,6 +13,7 @@ mod march;
 mod material;
 mod moving;
 mod parity;
+mod picking;
 mod queries;
 mod rivals;
 mod scaling;

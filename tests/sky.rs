@@ -8,7 +8,8 @@ use bevy_horizon::prelude::*;
 use bevy_horizon::world::towards_sun;
 use bevy_horizon_workspace::stage::Stage;
 use horizon_charts::context::Context;
-use horizon_charts::experiments::sky::default_errors;
+use horizon_charts::experiments::sky::{default_errors, default_pictures};
+use horizon_light::medium::Medium;
 
 use crate::golden::compare;
 
@@ -22,6 +23,21 @@ fn the_default_sky_is_that_of_monte_carlo() {
     assert_eq!(errors.len(), limits.len());
     for ((name, error), limit) in errors.into_iter().zip(limits) {
         assert!(error <= limit, "sun at {name}: RMS {error}, at most {limit}");
+    }
+}
+
+/// Pictures of 640 × 360 in 8 bits against all orders of scattering in double precision: `horizon_light`'s `reference::picture` says
+/// how they are exposed and tonemapped. The ground is the reference's own too; without it, the sky alone is held to the same.
+#[test]
+fn pictures_of_the_default_sky_are_those_of_all_orders() {
+    let directory = std::env::temp_dir().join("horizon_sky");
+    let pictures = default_pictures(&Context::new(directory, false)).expect("the truth is committed");
+    let limits = [(65.0, 47.0), (88.0, 40.0)];
+    assert_eq!(pictures.len(), limits.len());
+    for ((view, psnr), (zenith, least)) in pictures.into_iter().zip(limits) {
+        println!("sun at {zenith}°: {psnr:.1?} dB");
+        assert_eq!(view.sun_zenith, zenith);
+        assert!(psnr.into_iter().all(|psnr| psnr >= least), "sun at {zenith}°: {psnr:?} dB, at least {least}");
     }
 }
 
@@ -72,6 +88,24 @@ fn a_moonless_night_is_dark_and_has_no_nan() {
     assert!(colours.iter().flatten().all(|x| x.is_finite() && *x >= 0.0));
     let brightest = colours.iter().map(|c| c[1]).fold(0.0, f32::max) / Exposure { ev100: -3.0 }.exposure();
     assert!((1e-4..1e-2).contains(&brightest), "{brightest} cd/m²");
+}
+
+/// The blue hour. The published wavelengths miss most of ozone's band, and make it purple.
+#[test]
+fn the_zenith_of_twilight_is_blue() {
+    let zenith = |medium: Medium| {
+        let mut stage = under_sun(-4.0, 5.5);
+        let world = stage.world();
+        world.query::<&mut Atmosphere>().single_mut(world).expect("one air").medium = medium;
+        stage.look(Transform::from_xyz(0.0, 100.0, 0.0).looking_to(Vec3::Y, Vec3::NEG_Z));
+        stage.settle();
+        let colours = stage.colour();
+        colours[colours.len() / 2 + 160]
+    };
+    let [red, green, blue, _] = zenith(Medium::EARTH);
+    assert!(blue > 1.5 * green && green > red, "{red}, {green}, {blue}");
+    let [red, green, _, _] = zenith(Medium::BRUNETON);
+    assert!(red > 1.2 * green, "published: {red}, {green}");
 }
 
 /// Bevy's own air in place of ours: nothing of ours is in the sky, and the ground is drawn all the same.
@@ -136,9 +170,13 @@ fn bad_air_is_refused_and_the_last_stays() {
     let mut air = world.query::<&mut Atmosphere>().single_mut(world).expect("one air");
     air.medium.mie_height = f64::NAN;
     stage.off.update();
+    let world = stage.world();
+    let mut air = world.query::<&mut Atmosphere>().single_mut(world).expect("one air");
+    air.medium = Medium { wavelengths: [550.0, 550.0, 440.0], ..default() };
+    stage.off.update();
     let rejected = stage.world().resource_mut::<Messages<bevy_horizon::world::AtmosphereRejected>>();
     let mut messages = rejected.get_cursor();
     let fields: Vec<_> = messages.read(&rejected).map(|message| message.error.field.clone()).collect();
-    assert_eq!(fields, ["atmosphere.medium.mie_height"]);
+    assert_eq!(fields, ["atmosphere.medium.mie_height", "atmosphere.medium.wavelengths[1]"]);
     assert_eq!(before, stage.off.screenshot());
 }

@@ -18,10 +18,19 @@
 //!
 //! Data flows one way: components ([`world`], [`camera`]) → compiled fields → extraction → caches on the device → passes
 //! of the view. Nothing is read back. Without the default feature `render`, worlds load ([`scene`]) and queries answer.
+//!
+//! Features for other crates: `picking` (pointer events hit the ground), `avian` (colliders of the ground for avian3d) and
+//! `big_space` (the world's origin follows a floating origin).
 #![deny(missing_docs)]
 
+#[cfg(feature = "avian")]
+pub mod avian;
+#[cfg(feature = "big_space")]
+pub mod big_space;
 #[cfg(feature = "render")]
 pub mod camera;
+#[cfg(feature = "picking")]
+pub mod picking;
 pub mod query;
 #[cfg(feature = "render")]
 pub mod render;
@@ -35,8 +44,14 @@ use bevy::prelude::*;
 
 /// What a game needs.
 pub mod prelude {
+    #[cfg(feature = "avian")]
+    pub use crate::avian::{GroundTile, HorizonAvianPlugin, TileSettings};
+    #[cfg(feature = "big_space")]
+    pub use crate::big_space::HorizonBigSpacePlugin;
     #[cfg(feature = "render")]
     pub use crate::camera::{DebugView, HorizonCamera};
+    #[cfg(feature = "picking")]
+    pub use crate::picking::HorizonPickingPlugin;
     pub use crate::query::{GroundHit, HorizonQuery};
     #[cfg(feature = "render")]
     pub use crate::render::ready::{WorldProgress, WorldReady};
@@ -66,6 +81,8 @@ impl PluginGroup for HorizonPlugins {
 pub enum HorizonSystems {
     /// World files are put into components. In `PreUpdate`.
     Load,
+    /// The world's origin follows a floating origin, where there is one. In `PostUpdate`.
+    Origin,
     /// Changed terrain, stamps and air are checked and compiled. In `PostUpdate`; stamps after transforms were propagated.
     Compile,
 }

@@ -16,7 +16,8 @@ use thiserror::Error;
 
 use crate::HorizonSystems;
 use crate::world::{
-    Atmosphere, CompiledTerrain, ParamError, Stamp, StampPlace, Sun, Terrain, TerrainError, check_params,
+    Atmosphere, CompiledTerrain, ParamError, Stamp, StampPlace, Sun, Terrain, TerrainError, check_atmosphere,
+    check_params,
 };
 #[cfg(feature = "render")]
 use crate::world::{SkyModel, Sunlight, illuminance};
@@ -150,7 +151,7 @@ impl WorldFile {
             terrain.material.check()?;
         }
         if let Some(atmosphere) = &self.atmosphere {
-            check_params("atmosphere", atmosphere)?;
+            check_atmosphere(atmosphere)?;
         }
         if let Some(sun) = &self.sun {
             check_params("sun", sun)?;

@@ -28,7 +28,7 @@ fn main() -> ExitCode {
         eprintln!("say which file to write");
         return ExitCode::FAILURE;
     };
-    let medium = Medium::EARTH;
+    let medium = Medium::BRUNETON;
     let sky = Sky::new(&medium);
     let mut table = "case,sun_zenith_deg,h,mu,nu,wavelength,mean,standard_error\n".to_owned();
     for (case, (h, sun)) in CASES.into_iter().enumerate() {

@@ -11,18 +11,21 @@ use crate::profile::{exponential_density, extinction, tent_density};
 #[cfg(test)]
 mod tests;
 
-/// Wavelengths at which media are given, in nanometres: those of Bruneton 2017 for red, green and blue.
+/// Wavelengths of published media, in nanometres: those of Bruneton 2017 for red, green and blue.
 pub const WAVELENGTHS: [f64; 3] = [680.0, 550.0, 440.0];
+
+/// The least that a medium's wavelengths may lie apart, in nanometres: a curve is drawn through what they see.
+const APART: f64 = 10.0;
 
 /// Declares the medium: `name: type = Earth's value, "help", in min .. max unit;`. From one entry come the field, its
 /// documentation, its default, the range that [`Medium::check`] holds it against, and the attribute that an inspector
 /// reads.
 macro_rules! medium {
     ($($field:ident: $type:ty = $earth:expr, $help:literal, in $min:literal .. $max:literal $unit:literal;)*) => {
-        /// A planet's air, at [`WAVELENGTHS`]: molecules (Rayleigh) and aerosols (Mie), each with a density that falls
+        /// A planet's air, at three wavelengths: molecules (Rayleigh) and aerosols (Mie), each with a density that falls
         /// by e over its scale height, and an absorbing layer (ozone) with a tent-shaped density. SI units. The ranges
         /// keep squares of lengths finite in single precision, and optical depths where exponentials still mean
-        /// something.
+        /// something. A colour's three numbers are those at `wavelengths`: who changes these changes those.
         #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
         #[cfg_attr(feature = "reflect", derive(bevy_reflect::Reflect), reflect(Clone, Debug, Default, PartialEq))]
         #[serde(default, deny_unknown_fields)]
@@ -35,8 +38,8 @@ macro_rules! medium {
         }
 
         impl Medium {
-            /// Earth's air (Bruneton 2017): Rayleigh 1.24062e-6 λ⁻⁴ with λ in µm, ozone of 300 Dobson units, sun by
-            /// ASTM G-173.
+            /// Earth's air by the laws of Bruneton 2017 (Rayleigh 1.24062e-6 λ⁻⁴ with λ in µm, ozone of 300 Dobson units,
+            /// sun by ASTM G-173), at wavelengths chosen for their colours: [`spectrum::earth`](crate::spectrum::earth).
             pub const EARTH: Self = Self { $($field: $earth,)* };
 
             /// Calls `each` on the name, the range and the value of every number.
@@ -48,19 +51,20 @@ macro_rules! medium {
 }
 
 medium! {
+    wavelengths: [f64; 3] = [613.0, 544.0, 446.0], "Wavelengths of red, green and blue, falling.", in 380.0 .. 780.0 "nm";
     radius: f64 = 6_360_000.0, "The ground's radius.", in 1.0 .. 1e10 "m";
     height: f64 = 60_000.0, "Thickness of the shell of air.", in 1e-3 .. 1e10 "m";
-    rayleigh: [f64; 3] = [5.8023e-6, 13.558e-6, 33.100e-6], "Rayleigh scattering at the ground.", in 0.0 .. 1e3 "1/m";
+    rayleigh: [f64; 3] = [8.7861e-6, 14.166e-6, 31.354e-6], "Rayleigh scattering at the ground.", in 0.0 .. 1e3 "1/m";
     rayleigh_height: f64 = 8_000.0, "Height over which molecules thin by e.", in 1e-3 .. 1e15 "m";
     mie_scattering: [f64; 3] = [3.996e-6; 3], "Mie scattering at the ground.", in 0.0 .. 1e3 "1/m";
     mie_absorption: [f64; 3] = [0.444e-6; 3], "Mie absorption at the ground.", in 0.0 .. 1e3 "1/m";
     mie_height: f64 = 1_200.0, "Height over which aerosols thin by e.", in 1e-3 .. 1e15 "m";
     mie_asymmetry: f64 = 0.8, "Asymmetry g of the Cornette–Shanks phase function.", in -0.99 .. 0.99 "";
-    absorption: [f64; 3] = [6.497e-7, 1.8809e-6, 8.502e-8], "Absorption at the layer's peak.", in 0.0 .. 1e3 "1/m";
+    absorption: [f64; 3] = [2.2224e-6, 1.749e-6, 1.0868e-7], "Absorption at the layer's peak.", in 0.0 .. 1e3 "1/m";
     absorption_peak: f64 = 25_000.0, "Altitude of the absorbing layer's peak.", in 0.0 .. 1e10 "m";
     absorption_width: f64 = 15_000.0, "From the absorbing layer's peak, where density is 1, to where it is 0.", in 1e-3 .. 1e10 "m";
     albedo: [f64; 3] = [0.1; 3], "The ground's albedo.", in 0.0 .. 1.0 "";
-    irradiance: [f64; 3] = [1.474, 1.8504, 1.911_98], "Solar irradiance at the top of the air.", in 0.0 .. 1e9 "W m⁻² nm⁻¹";
+    irradiance: [f64; 3] = [1.692_132, 1.851_054, 1.985_636], "Solar irradiance at the top of the air.", in 0.0 .. 1e9 "W m⁻² nm⁻¹";
     sun_radius: f64 = 0.004_675, "The sun's angular radius.", in 0.0 .. 0.5 "rad";
 }
 
@@ -114,6 +118,16 @@ pub enum MediumError {
 }
 
 impl Medium {
+    /// Earth's air as published (Bruneton 2017), at 680, 550 and 440 nm: what reference values and truths are of. These
+    /// wavelengths leave out the most of ozone's band, so that its twilight is purple.
+    pub const BRUNETON: Self = Self {
+        wavelengths: WAVELENGTHS,
+        rayleigh: [5.8023e-6, 13.558e-6, 33.100e-6],
+        absorption: [6.497e-7, 1.8809e-6, 8.502e-8],
+        irradiance: [1.474, 1.8504, 1.911_98],
+        ..Self::EARTH
+    };
+
     /// Hazy air without ozone (seed 001, tables 8.2 and 8.3). The report gives no Mie absorption: a single-scattering
     /// albedo of 0.9 is taken from Bruneton and Neyret 2008, whose parameters it builds on.
     pub const LEEDS: Self = Self {
@@ -125,7 +139,7 @@ impl Medium {
         albedo: [0.0, 0.0, 0.04],
         irradiance: [1.5; 3],
         sun_radius: 0.004_625_122_5,
-        ..Self::EARTH
+        ..Self::BRUNETON
     };
 
     /// Mars under a clear season's dust, from rounded figures. Rayleigh: carbon dioxide at 610 Pa and 210 K has 2.1e23
@@ -147,12 +161,13 @@ impl Medium {
         albedo: [0.28, 0.16, 0.08],
         irradiance: [1.474 / 2.3226, 1.8504 / 2.3226, 1.911_98 / 2.3226],
         sun_radius: 0.004_675 / 1.524,
-        ..Self::EARTH
+        ..Self::BRUNETON
     };
 
     /// An invented thick air, for worlds and for tests: three times Earth's molecules with a larger scale height, much
     /// haze, a layer that absorbs blue, a nearer and dimmer sun.
     pub const ALIEN: Self = Self {
+        wavelengths: WAVELENGTHS,
         radius: 5_000_000.0,
         height: 120_000.0,
         rayleigh: [17.4e-6, 40.7e-6, 99.3e-6],
@@ -181,7 +196,7 @@ impl Medium {
         mie_height: 30_000.0,
         absorption: [0.0; 3],
         irradiance: [123.0; 3],
-        ..Self::EARTH
+        ..Self::BRUNETON
     };
 
     /// The same without aerosols.
@@ -224,7 +239,8 @@ impl Medium {
     /// Says which number, if any, cannot be used.
     ///
     /// # Errors
-    /// The first number that is not finite, or out of its range.
+    /// The first number that is not finite, or out of its range; wavelengths that do not fall by 10 nm from red to green
+    /// and on to blue.
     pub fn check(&self) -> Result<(), MediumError> {
         let mut found = Ok(());
         self.numbers(&mut |field, [low, high], value| {
@@ -235,7 +251,17 @@ impl Medium {
                 found = Err(MediumError::OutOfRange { field, value, low, high });
             }
         });
+        let ([low, high], value) = (self.green_range(), self.wavelengths[1]);
+        if found.is_ok() && !(low..=high).contains(&value) {
+            found = Err(MediumError::OutOfRange { field: "wavelengths[1]", value, low, high });
+        }
         found
+    }
+
+    /// From where to where green's wavelength may lie between blue's and red's, in nanometres; nowhere, if they do not fall. The
+    /// ranges of the fields do not say this.
+    pub fn green_range(&self) -> [f64; 2] {
+        [self.wavelengths[2] + APART, self.wavelengths[0] - APART]
     }
 }
 

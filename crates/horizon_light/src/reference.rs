@@ -8,6 +8,7 @@ pub mod first_leg;
 pub mod harmonics;
 pub mod monte_carlo;
 pub mod orders;
+pub mod picture;
 pub mod quadrature;
 pub mod random;
 pub mod single;

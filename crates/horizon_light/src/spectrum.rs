@@ -6,15 +6,17 @@
 //! the assumption: it draws a curve through all three radiances, whatever their slope, and integrates that; one matrix
 //! serves sky, star and ground. Against full spectra the luminance of a hazy sky with ozone is then off by 0.3 % with the sun
 //! at a zenith angle of 30° and by at most 1.4 % at 80°, where Bruneton's factors are off by 0.7 % and 10 %
-//! (`tests::the_matrix_beats_the_factors`). What both miss is ozone's band round 600 nm, between the wavelengths.
+//! (`tests::the_matrix_beats_the_factors`). What both miss there is ozone's band round 600 nm, between the published wavelengths:
+//! [`earth`] says which ones do not.
 //!
 //! Radiance becomes luminance here, and irradiance illuminance: the factors are the same.
 
+pub mod earth;
 pub mod tables;
 #[cfg(test)]
 mod tests;
 
-use crate::medium::WAVELENGTHS;
+use crate::medium::{Medium, WAVELENGTHS};
 use tables::{CIE_1931, CIE_STEP, FIRST, LAST, SOLAR, SOLAR_STEP, XYZ_TO_SRGB};
 
 /// Lumens per watt where the eye is most sensitive (the SI's definition of the candela).
@@ -79,8 +81,13 @@ pub struct Star {
 }
 
 impl Star {
-    /// A star of this irradiance at [`WAVELENGTHS`].
-    pub const fn new(irradiance: [f64; 3]) -> Self {
+    /// The star that a medium is lit by.
+    pub const fn of(medium: &Medium) -> Self {
+        Self { wavelengths: medium.wavelengths, irradiance: medium.irradiance }
+    }
+
+    /// A star of this irradiance at the published [`WAVELENGTHS`].
+    const fn published(irradiance: [f64; 3]) -> Self {
         Self { wavelengths: WAVELENGTHS, irradiance }
     }
 
@@ -128,10 +135,10 @@ impl Star {
 /// Bruneton's factors for a sky under a star of this irradiance at [`WAVELENGTHS`]: linear sRGB in cd/m² for
 /// W m⁻² sr⁻¹ nm⁻¹, channel by channel.
 pub fn sky_luminance_factors(irradiance: [f64; 3]) -> [f64; 3] {
-    Star::new(irradiance).factors(SKY_POWER)
+    Star::published(irradiance).factors(SKY_POWER)
 }
 
 /// Bruneton's factors for the star itself, and for what it lights without a change of colour.
 pub fn sun_luminance_factors(irradiance: [f64; 3]) -> [f64; 3] {
-    Star::new(irradiance).factors(0.0)
+    Star::published(irradiance).factors(0.0)
 }

@@ -10,7 +10,7 @@ mod tests;
 
 pub use limb::{FLAT, LimbLaw, limb_darkening};
 
-use crate::medium::WAVELENGTHS;
+use crate::medium::Medium;
 use core::f64::consts::PI;
 use horizon_field::Real;
 
@@ -49,9 +49,9 @@ impl SunDisc<f64> {
         }
     }
 
-    /// The sun, whose limb law is known at [`WAVELENGTHS`].
-    pub fn sun(irradiance: [f64; 3], radius: f64) -> Self {
-        Self::new(irradiance, radius, WAVELENGTHS.map(limb_darkening))
+    /// The star that a medium is lit by, with our sun's limb law.
+    pub fn of(medium: &Medium) -> Self {
+        Self::new(medium.irradiance, medium.sun_radius, medium.wavelengths.map(limb_darkening))
     }
 
     /// The same numbers in another precision.

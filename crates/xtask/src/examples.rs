@@ -8,10 +8,14 @@ use std::{env, fs};
 use crate::run::{Failure, Tool, root};
 
 /// Each example, with the options that make it end by itself after a few frames.
-const UNATTENDED: [(&str, &[(&str, &str)]); 4] = [
+const UNATTENDED: [(&str, &[(&str, &str)]); 7] = [
+    ("balls", &[("--frames", "3")]),
     ("bench", &[("--frames", "2"), ("--size", "160x90")]),
+    ("far_away", &[("--frames", "3")]),
     ("fly_through", &[("--frames", "3"), ("--size", "160x90")]),
     ("minimal", &[("--frames", "3")]),
+    // A pretended pointer clicks every three frames.
+    ("plant", &[("--frames", "8")]),
     ("time_of_day", &[("--frames", "3"), ("--size", "160x90")]),
 ];
 

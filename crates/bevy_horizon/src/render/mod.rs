@@ -26,6 +26,7 @@ use bevy::shader::Shader;
 use crate::HorizonSystems;
 use crate::camera::HorizonCamera;
 
+pub use air::sky_table_bytes;
 pub use shaders::shader_sources;
 
 /// The picture of the worlds, in every `Camera3d` with a [`HorizonCamera`]. Nothing is built on the device before a

@@ -10,7 +10,7 @@ use horizon_light::models::moments::Moments;
 use horizon_light::models::transmittance::Transmittance;
 use horizon_light::spectrum::Star;
 
-use super::{Atmosphere, ParamError, SkyModel, check_params};
+use super::{Atmosphere, ParamError, SkyModel, check_atmosphere};
 
 /// What [`Atmosphere`] became. After a bad edit the last good one stays.
 #[derive(Component, Clone, Debug)]
@@ -39,7 +39,7 @@ impl AirLight {
         let air = Air::new(&medium);
         let transmittance = Transmittance::new(&air);
         let moments = Moments::new(&air, &transmittance);
-        let to_rgb = Star::new(medium.irradiance).matrix();
+        let to_rgb = Star::of(&medium).matrix();
         Self { medium, air, moments, to_rgb }
     }
 }
@@ -65,7 +65,7 @@ pub(crate) fn compile_atmospheres(
     mut rejected: MessageWriter<AtmosphereRejected>,
 ) {
     for (entity, atmosphere, old) in &changed {
-        if let Err(error) = check_params("atmosphere", atmosphere) {
+        if let Err(error) = check_atmosphere(atmosphere) {
             error!("atmosphere {entity} was rejected, what was there before stays: {error}");
             rejected.write(AtmosphereRejected { entity, error });
             continue;

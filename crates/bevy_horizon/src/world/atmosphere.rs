@@ -7,6 +7,8 @@ use horizon_light::models::gradient::GradientSky;
 use horizon_light::night::MOONLESS_NIGHT;
 use serde::{Deserialize, Serialize};
 
+use super::{ParamError, check_params};
+
 /// The air: sky, sun disc and aerial perspective over ground and meshes alike, in every camera that draws worlds. The ground lies
 /// at the height of the entity's transform.
 ///
@@ -90,8 +92,10 @@ impl Default for SkyGradient {
 }
 
 impl Atmosphere {
-    /// Earth's air.
+    /// Earth's air, at wavelengths that give its colours.
     pub const EARTH: Self = Self::of(Medium::EARTH);
+    /// Earth's air as published, at 680, 550 and 440 nm (Bruneton 2017): to compare with; its twilight is purple.
+    pub const BRUNETON: Self = Self::of(Medium::BRUNETON);
     /// Hazy air without ozone.
     pub const LEEDS: Self = Self::of(Medium::LEEDS);
     /// Mars', with its dust.
@@ -106,6 +110,16 @@ impl Atmosphere {
 
     /// The sun's angular radius as seen from Earth, in radians (Bruneton 2017).
     pub const EARTH_SUN_RADIUS: f32 = Medium::EARTH.sun_radius as f32;
+}
+
+/// [`check_params`] for the air, whose wavelengths must also fall: their ranges alone do not say so.
+pub(crate) fn check_atmosphere(atmosphere: &Atmosphere) -> Result<(), ParamError> {
+    check_params("atmosphere", atmosphere)?;
+    let ([min, max], value) = (atmosphere.medium.green_range(), atmosphere.medium.wavelengths[1]);
+    if (min..=max).contains(&value) {
+        return Ok(());
+    }
+    Err(ParamError { field: "atmosphere.medium.wavelengths[1]".into(), value, min, max, unit: "nm" })
 }
 
 impl Default for Atmosphere {

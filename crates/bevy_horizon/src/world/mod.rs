@@ -14,6 +14,7 @@ mod terrain;
 
 pub use air_light::{AtmosphereRejected, CompiledAtmosphere};
 pub(crate) use air_light::{brighten, compile_atmospheres, forget_atmosphere};
+pub(crate) use atmosphere::check_atmosphere;
 pub use atmosphere::{Atmosphere, SkyGradient, SkyModel};
 #[cfg(feature = "render")]
 pub(crate) use compiled::TerrainFields;

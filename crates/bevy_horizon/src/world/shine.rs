@@ -19,13 +19,13 @@ use crate::camera::HorizonCamera;
 /// Illuminance of a surface that faces the sun at altitude `h` in metres, in lux, linear sRGB, where the sun stands `mu_s` from the
 /// vertical (a cosine): through the air, and as far as the disc stands over the horizon.
 pub fn illuminance(medium: &Medium, h: f64, mu_s: f64) -> [f64; 3] {
-    rgb(&Star::new(medium.irradiance).matrix(), irradiance(medium, h, mu_s))
+    rgb(&Star::of(medium).matrix(), irradiance(medium, h, mu_s))
 }
 
 /// What is left of the sun's irradiance at the medium's wavelengths.
 fn irradiance(medium: &Medium, h: f64, mu_s: f64) -> [f64; 3] {
     let h = h.max(0.0);
-    let disc = SunDisc::sun(medium.irradiance, medium.sun_radius);
+    let disc = SunDisc::of(medium);
     let visible = disc.visible(above_horizon(mu_s, h, medium.radius));
     // Of a disc that sets, what is seen stands on the horizon.
     let through = if h < medium.height {

@@ -1,16 +1,12 @@
-//! The sky of each model, and of Bevy's own `Atmosphere`, against the Monte Carlo reference; and what each adds to a frame.
+//! The sky of each model, and of Bevy's own `Atmosphere`, against the Monte Carlo reference and in pictures; what each adds to a frame, and
+//! how large its tables are.
 
-use std::fs;
+mod scene;
+mod truth;
 
-use bevy::camera::Exposure;
-use bevy::light::atmosphere::{Falloff, PhaseFunction, ScatteringMedium, ScatteringTerm};
-use bevy::math::{DMat3, DVec3};
-use bevy::pbr::AtmosphereSettings;
-use bevy::prelude::*;
+use bevy::math::DVec3;
 use bevy_horizon::prelude::*;
-use bevy_horizon_workspace::stage::Stage;
-use horizon_light::medium::Medium;
-use horizon_light::spectrum::Star;
+use horizon_light::reference::picture::{ALTITUDE, HEIGHT, VIEWS, View, WIDTH, passes_sun, sees_sky};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
@@ -19,6 +15,8 @@ use crate::experiment::{ChartsError, Experiment, NamedChart};
 use crate::measure::samples::median;
 use crate::plot::{Axis, Dot, Group, Scatter};
 use crate::store::Row;
+use scene::{Model, Scene};
+use truth::{MEDIUM, cases};
 
 /// The experiment.
 #[derive(Clone, Copy, Debug)]
@@ -26,8 +24,7 @@ pub struct Sky;
 
 const TABLE: &str = "sky";
 const FULL: [u32; 2] = [1280, 720];
-/// Lux of Bevy's sun; its sky is in proportion.
-const BEVY_SUN: f32 = 100_000.0;
+const PICTURE: [u32; 2] = [WIDTH as u32, HEIGHT as u32];
 /// By how much the sun turns in a frame while time is taken, in radians: so much that tables are made anew.
 const TURN: f32 = 2e-3;
 
@@ -52,6 +49,10 @@ pub struct SkyRow {
     pub rmse_550: f64,
     /// At 440 nm.
     pub rmse_440: f64,
+    /// Peak signal to noise ratio of the sky in a tonemapped picture, in dB; for the views that have a true one.
+    pub psnr_db: Option<f64>,
+    /// Bytes on the device of the tables of one medium and one camera.
+    pub table_bytes: u64,
 }
 
 impl Row for SkyRow {
@@ -63,246 +64,6 @@ impl Row for SkyRow {
 
     fn run(&self) -> u64 {
         self.run
-    }
-}
-
-/// What draws the sky.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Model {
-    None,
-    Own(SkyModel),
-    /// Bevy's, with its own medium, or with the published one.
-    Bevy {
-        published: bool,
-    },
-}
-
-impl Model {
-    const ALL: [Self; 6] = [
-        Self::Own(SkyModel::Gradient),
-        Self::Own(SkyModel::Single),
-        Self::Own(SkyModel::Fast),
-        Self::Own(SkyModel::Full),
-        Self::Bevy { published: false },
-        Self::Bevy { published: true },
-    ];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::None => "none",
-            Self::Own(SkyModel::Gradient) => "gradient",
-            Self::Own(SkyModel::Single) => "single",
-            Self::Own(SkyModel::Fast) => "fast",
-            Self::Own(SkyModel::Full) => "full",
-            Self::Bevy { published: false } => "bevy_default",
-            Self::Bevy { published: true } => "bevy_published_medium",
-        }
-    }
-}
-
-/// A row of the truth: `assets/truth/sky.csv`, made by the example `truth` of `horizon_light`.
-#[derive(Clone, Copy, Debug, Deserialize)]
-struct TruthRow {
-    case: usize,
-    sun_zenith_deg: f64,
-    h: f64,
-    mu: f64,
-    nu: f64,
-    wavelength: usize,
-    mean: f64,
-}
-
-/// A direction, and its true radiance at the three wavelengths.
-#[derive(Clone, Copy, Debug)]
-struct Direction {
-    mu: f64,
-    nu: f64,
-    truth: [f64; 3],
-}
-
-/// A sun, an altitude, and directions.
-#[derive(Clone, Debug)]
-struct Case {
-    sun_zenith: f64,
-    h: f64,
-    directions: Vec<Direction>,
-}
-
-impl Case {
-    fn name(&self) -> String {
-        let place = if self.h < 100.0 { "ground".to_owned() } else { format!("{} km", self.h / 1000.0) };
-        format!("{}° {place}", self.sun_zenith)
-    }
-
-    /// Towards the sun, which stands over +x.
-    fn sun(&self) -> DVec3 {
-        let (sin, cos) = self.sun_zenith.to_radians().sin_cos();
-        DVec3::new(sin, cos, 0.0)
-    }
-
-    fn view(&self, direction: &Direction) -> DVec3 {
-        let sun = self.sun();
-        let side = (1.0 - direction.mu * direction.mu).max(0.0).sqrt();
-        let along = if sun.x > 0.0 { (direction.nu - direction.mu * sun.y) / sun.x } else { side };
-        let x = along.clamp(-side, side);
-        DVec3::new(x, direction.mu, (side * side - x * x).max(0.0).sqrt()).normalize()
-    }
-
-    /// The exposure that brings the sky to about 1.
-    fn exposure(&self) -> Exposure {
-        let rgb_of = DMat3::from_cols_array_2d(&Star::new(Medium::EARTH.irradiance).matrix()).transpose();
-        let sum: f64 = self.directions.iter().map(|d| (rgb_of * DVec3::from_array(d.truth)).max_element()).sum();
-        Exposure { ev100: (sum / self.directions.len() as f64 / 1.2).log2() as f32 }
-    }
-}
-
-fn cases(ctx: &Context) -> Result<Vec<Case>, ChartsError> {
-    let file = ctx.root.join("assets/truth/sky.csv");
-    let text = fs::read_to_string(&file).map_err(ChartsError::io(&file))?;
-    let mut cases: Vec<Case> = Vec::new();
-    for row in csv::Reader::from_reader(text.as_bytes()).deserialize() {
-        let row: TruthRow =
-            row.map_err(|error| ChartsError::Image { file: file.clone(), reason: error.to_string() })?;
-        if row.case == cases.len() {
-            cases.push(Case { sun_zenith: row.sun_zenith_deg, h: row.h, directions: Vec::new() });
-        }
-        let case = &mut cases[row.case];
-        let k = [680, 550, 440].iter().position(|nm| *nm == row.wavelength).unwrap_or(0);
-        match case.directions.iter_mut().find(|d| d.mu == row.mu && d.nu == row.nu) {
-            Some(found) => found.truth[k] = row.mean,
-            None => {
-                let mut truth = [0.0; 3];
-                truth[k] = row.mean;
-                case.directions.push(Direction { mu: row.mu, nu: row.nu, truth });
-            }
-        }
-    }
-    let step = ctx.pick(27, 1);
-    for case in &mut cases {
-        // Not into the sun: the truth has no disc.
-        case.directions.retain(|direction| direction.nu < (2.0 * Medium::EARTH.sun_radius).cos());
-        case.directions = case.directions.iter().step_by(step).copied().collect();
-    }
-    Ok(cases)
-}
-
-/// Bruneton's air in Bevy's terms: scale heights are parts of the shell's 60 km, and the tent is 30 km wide.
-fn published() -> ScatteringMedium {
-    let air = Medium::EARTH;
-    let vec = |v: [f64; 3]| DVec3::from_array(v).as_vec3();
-    let exponential = |height: f64| Falloff::Exponential { scale: (height / air.height) as f32 };
-    let terms = [
-        ScatteringTerm {
-            absorption: Vec3::ZERO,
-            scattering: vec(air.rayleigh),
-            falloff: exponential(air.rayleigh_height),
-            phase: PhaseFunction::Rayleigh,
-        },
-        ScatteringTerm {
-            absorption: vec(air.mie_absorption),
-            scattering: vec(air.mie_scattering),
-            falloff: exponential(air.mie_height),
-            phase: PhaseFunction::Mie { asymmetry: air.mie_asymmetry as f32 },
-        },
-        ScatteringTerm {
-            absorption: vec(air.absorption),
-            scattering: Vec3::ZERO,
-            falloff: Falloff::Tent {
-                center: (1.0 - air.absorption_peak / air.height) as f32,
-                width: (2.0 * air.absorption_width / air.height) as f32,
-            },
-            phase: PhaseFunction::Isotropic,
-        },
-    ];
-    ScatteringMedium::new(256, 256, terms)
-}
-
-/// A stage under a model's sky.
-struct Scene {
-    stage: Stage,
-    sun: Entity,
-    model: Model,
-}
-
-impl Scene {
-    fn new(model: Model, [width, height]: [u32; 2]) -> Self {
-        let mut stage = Stage::new(width, height);
-        let camera = stage.camera;
-        let light = DirectionalLight { illuminance: BEVY_SUN, ..default() };
-        let sun = stage.world().spawn((light, Transform::default())).id();
-        match model {
-            Model::None => {}
-            Model::Own(own) => {
-                stage.world().entity_mut(sun).insert(Sunlight);
-                stage.world().spawn(Atmosphere { model: own, night: 0.0, ..default() });
-            }
-            Model::Bevy { published: wanted } => {
-                let medium = if wanted { published() } else { ScatteringMedium::earth(256, 256) };
-                let medium = stage.world().resource_mut::<Assets<ScatteringMedium>>().add(medium);
-                let mut air = bevy::light::Atmosphere::earth(medium);
-                if wanted {
-                    air.outer_radius = (Medium::EARTH.radius + Medium::EARTH.height) as f32;
-                    air.ground_albedo = Vec3::splat(Medium::EARTH.albedo[0] as f32);
-                }
-                stage.world().spawn(air);
-                stage.world().entity_mut(camera).insert(AtmosphereSettings::default());
-            }
-        }
-        Self { stage, sun, model }
-    }
-
-    fn shine(&mut self, towards: DVec3) {
-        let to = Transform::default().looking_to(-towards.as_vec3(), Vec3::Z);
-        *self.stage.world().get_mut::<Transform>(self.sun).expect("the sun is there") = to;
-    }
-
-    fn look(&mut self, h: f64, towards: DVec3) {
-        let up = if towards.y.abs() > 0.99 { Vec3::X } else { Vec3::Y };
-        self.stage.look(Transform::from_xyz(0.0, h as f32, 0.0).looking_to(towards.as_vec3(), up));
-    }
-
-    fn settle(&mut self) {
-        for _ in 0..6 {
-            self.stage.frame();
-        }
-        if let Model::Own(own) = self.model
-            && own != SkyModel::Gradient
-        {
-            self.stage.settle();
-        }
-    }
-
-    /// Relative errors at the three wavelengths, over a case's directions.
-    fn errors(&mut self, case: &Case) -> [Vec<f64>; 3] {
-        let camera = self.stage.camera;
-        let exposure = case.exposure();
-        // So narrow that a picture is one direction.
-        let lens = Projection::Perspective(PerspectiveProjection { fov: 0.01, near: 0.1, ..default() });
-        self.stage.world().entity_mut(camera).insert((exposure, lens));
-        self.shine(case.sun());
-        self.look(case.h, DVec3::Y);
-        self.settle();
-        let radiance_of =
-            DMat3::from_cols_array_2d(&Star::new(Medium::EARTH.irradiance).matrix()).transpose().inverse();
-        let mut errors = [const { Vec::new() }; 3];
-        for direction in &case.directions {
-            self.look(case.h, case.view(direction));
-            self.stage.frame();
-            let picture = self.stage.colour();
-            // Four pixels meet at the middle of an even picture.
-            let side = (picture.len() as f64).sqrt() as usize;
-            let middle = [0, 1, side, side + 1].map(|i| picture[(side / 2 - 1) * (side + 1) + i]);
-            let mean: [f64; 3] = core::array::from_fn(|k| middle.iter().map(|p| f64::from(p[k])).sum::<f64>() / 4.0);
-            let luminance = DVec3::from_array(mean) / f64::from(exposure.exposure());
-            let drawn = match self.model {
-                Model::Bevy { .. } => luminance / f64::from(BEVY_SUN) * DVec3::from_array(Medium::EARTH.irradiance),
-                _ => radiance_of * luminance,
-            };
-            for (k, errors) in errors.iter_mut().enumerate() {
-                errors.push(drawn[k] / direction.truth[k] - 1.0);
-            }
-        }
-        errors
     }
 }
 
@@ -318,6 +79,31 @@ pub fn default_errors(ctx: &Context, step: usize) -> Result<Vec<(String, f64)>, 
         errors.push((case.name(), root_mean_square(scene.errors(&case).iter().flatten())));
     }
     Ok(errors)
+}
+
+/// The default model's pictures: each view, and the peak signal to noise ratio in dB of the whole and of the sky alone. The sun's disc
+/// is left out.
+///
+/// # Errors
+/// No truth to read.
+pub fn default_pictures(ctx: &Context) -> Result<Vec<(View, [f64; 2])>, ChartsError> {
+    let mut scene = Scene::new(Model::Own(SkyModel::Full), PICTURE);
+    let of = |view: View| -> Result<_, ChartsError> {
+        let (ours, truth) = (scene.picture(&view), truth::picture(ctx, &view)?);
+        Ok((view, [passes_sun, sees_sky].map(|counts| view.psnr(&ours, &truth, |ray| counts(&MEDIUM, ray)))))
+    };
+    VIEWS.into_iter().map(of).collect()
+}
+
+/// Each view's name, and what a model's picture of its sky has.
+fn pictures(ctx: &Context, model: Model) -> Result<Vec<(String, f64)>, ChartsError> {
+    let mut scene = Scene::new(model, PICTURE);
+    let of = |view: View| -> Result<_, ChartsError> {
+        let (drawn, truth) = (scene.picture(&view), truth::picture(ctx, &view)?);
+        // The ground is left out: not every model draws one.
+        Ok((truth::name(view.sun_zenith, ALTITUDE), view.psnr(&drawn, &truth, |ray| sees_sky(&MEDIUM, ray))))
+    };
+    VIEWS.into_iter().map(of).collect()
 }
 
 fn root_mean_square<'a>(errors: impl IntoIterator<Item = &'a f64>) -> f64 {
@@ -358,7 +144,7 @@ impl Experiment for Sky {
     }
 
     fn about(&self) -> &'static str {
-        "the sky of each model and of Bevy's own, against Monte Carlo, and what each costs"
+        "the sky of each model and of Bevy's own against the truth, and what each costs in time and tables"
     }
 
     fn tables(&self) -> &'static [&'static str] {
@@ -379,6 +165,7 @@ impl Experiment for Sky {
         let costs = costs(ctx);
         progress.done("times");
         for (model, [ms, still_ms]) in costs {
+            let pictures = pictures(ctx, model)?;
             let mut scene = Scene::new(model, [16, 16]);
             for case in &cases {
                 let errors = scene.errors(case);
@@ -393,6 +180,8 @@ impl Experiment for Sky {
                     rmse_680,
                     rmse_550,
                     rmse_440,
+                    psnr_db: pictures.iter().find(|(view, _)| *view == case.name()).map(|(_, psnr)| *psnr),
+                    table_bytes: model.table_bytes(),
                 })?;
             }
             progress.done(model.name());
@@ -408,24 +197,33 @@ impl Experiment for Sky {
                 views.push(&row.view);
             }
         }
-        let chart = |(i, view): (usize, &&str)| {
-            let of = rows.iter().filter(|row| row.view == **view);
-            let groups = of.map(|row| Group {
-                name: row.model.clone(),
-                dots: vec![Dot { x: row.ms.max(0.1), y: row.rmse_rel, missed: false, label: String::new() }],
-            });
-            let scatter = Scatter {
+        let groups = |view: &str, x: fn(&SkyRow) -> f64| {
+            let of = rows.iter().filter(|row| row.view == view);
+            let dot = |row: &SkyRow| Dot { x: x(row), y: row.rmse_rel, missed: false, label: String::new() };
+            of.map(|row| Group { name: row.model.clone(), dots: vec![dot(row)] }).collect::<Vec<_>>()
+        };
+        let charts = |(i, view): (usize, &&str)| {
+            let time = Scatter {
                 title: format!("The sky under a sun at zenith angle {view}: error against time"),
                 note: "81 directions, three wavelengths, against Monte Carlo. Time: what the sky adds to a frame of 1280 × 720 while the sun turns."
                     .into(),
                 x: Axis::log("added to a frame, ms"),
                 y: Axis::log("RMS relative error"),
-                groups: groups.collect(),
+                groups: groups(view, |row| row.ms.max(0.1)),
                 missed: String::new(),
             };
-            NamedChart::new(format!("sky_{i}"), scatter)
+            let size = Scatter {
+                title: format!("The sky under a sun at zenith angle {view}: error against tables"),
+                note: "81 directions, three wavelengths, against Monte Carlo. Tables of one medium and one camera; the gradient has none."
+                    .into(),
+                x: Axis::log("tables, kB"),
+                y: Axis::log("RMS relative error"),
+                groups: groups(view, |row| (row.table_bytes as f64 / 1e3).max(1.0)),
+                missed: String::new(),
+            };
+            [NamedChart::new(format!("sky_{i}"), time), NamedChart::new(format!("sky_bytes_{i}"), size)]
         };
-        Ok(views.iter().enumerate().map(chart).collect())
+        Ok(views.iter().enumerate().flat_map(charts).collect())
     }
 
     fn summary(&self, ctx: &Context) -> Result<Map<String, Value>, ChartsError> {
@@ -433,6 +231,7 @@ impl Experiment for Sky {
         let of = |model: Model, view: &str| rows.iter().rev().find(|row| row.model == model.name() && row.view == view);
         let (full, bevy) = (Model::Own(SkyModel::Full), Model::Bevy { published: false });
         let rmse = |model, view: &str| of(model, view).map(|row| 100.0 * row.rmse_rel);
+        let psnr = |model, view: &str| of(model, view).and_then(|row| row.psnr_db);
         let share = |ms: fn(&SkyRow) -> f64| Some(ms(of(full, "65° ground")?) / ms(of(bevy, "65° ground")?));
         let published = Model::Bevy { published: true };
         let compared = json!({
@@ -443,6 +242,12 @@ impl Experiment for Sky {
             "single_percent_65": rmse(Model::Own(SkyModel::Single), "65° ground"),
             "bevy_percent_65": rmse(bevy, "65° ground"),
             "bevy_published_percent_65": rmse(published, "65° ground"),
+            "full_psnr_65": psnr(full, "65° ground"),
+            "full_psnr_88": psnr(full, "88° ground"),
+            "fast_psnr_65": psnr(Model::Own(SkyModel::Fast), "65° ground"),
+            "bevy_published_psnr_65": psnr(published, "65° ground"),
+            "full_table_kb": of(full, "65° ground").map(|row| row.table_bytes as f64 / 1e3),
+            "bevy_table_kb": of(bevy, "65° ground").map(|row| row.table_bytes as f64 / 1e3),
             "share_of_bevys_time": share(|row| row.still_ms),
             "share_of_bevys_time_turning": share(|row| row.ms),
         });

@@ -2,8 +2,8 @@ use super::*;
 use crate::medium::Medium;
 use proptest::prelude::*;
 
-const R: f64 = Medium::EARTH.radius;
-const TOP: f64 = Medium::EARTH.height;
+const R: f64 = Medium::BRUNETON.radius;
+const TOP: f64 = Medium::BRUNETON.height;
 
 /// What a textbook writes: distance to the sphere of radius `a` by r² − a².
 fn naive_distance_to_ground(a: f32, h: f32, mu: f32) -> f32 {

@@ -1,10 +1,12 @@
 use super::*;
+use crate::spectrum::earth::earth;
 
 /// Name, and a medium whose one number is replaced.
 fn fields(value: f64) -> Vec<(&'static str, Medium)> {
-    let m = Medium::EARTH;
+    let m = Medium::BRUNETON;
     let one = [1e-6, value, 1e-6];
     vec![
+        ("wavelengths", Medium { wavelengths: [680.0, value, 440.0], ..m }),
         ("radius", Medium { radius: value, ..m }),
         ("height", Medium { height: value, ..m }),
         ("rayleigh", Medium { rayleigh: one, ..m }),
@@ -24,7 +26,7 @@ fn fields(value: f64) -> Vec<(&'static str, Medium)> {
 
 #[test]
 fn every_preset_passes() {
-    for medium in [Medium::EARTH, Medium::LEEDS, Medium::MARS, Medium::ALIEN, Medium::SMALL_PLANET] {
+    for medium in [Medium::EARTH, Medium::BRUNETON, Medium::LEEDS, Medium::MARS, Medium::ALIEN, Medium::SMALL_PLANET] {
         assert_eq!(medium.check(), Ok(()));
         assert_eq!(medium.without_mie().check(), Ok(()));
         assert_eq!(medium.lossless().check(), Ok(()));
@@ -42,19 +44,42 @@ fn every_wrong_number_is_named() {
     }
 }
 
+/// Two alike, or in another order, and no curve can be drawn through them.
+#[test]
+fn wavelengths_that_do_not_fall_are_refused() {
+    for wavelengths in [[680.0, 680.0, 440.0], [440.0, 550.0, 680.0], [550.0, 545.0, 440.0], [680.0, 550.0, 541.0]] {
+        let error = Medium { wavelengths, ..Medium::EARTH }.check().expect_err("they do not fall");
+        assert!(error.to_string().contains("`wavelengths[1]`"), "{error}");
+    }
+}
+
+#[test]
+fn earth_is_its_laws_at_its_wavelengths() {
+    for medium in [Medium::EARTH, Medium::BRUNETON] {
+        let laws = earth(medium.wavelengths);
+        let pairs = [(medium.rayleigh, laws.rayleigh), (medium.absorption, laws.absorption)];
+        for (ours, law) in pairs.into_iter().chain([(medium.irradiance, laws.irradiance)]) {
+            assert!((0..3).all(|k| (ours[k] / law[k] - 1.0).abs() < 1e-4), "{ours:?}, {law:?}");
+        }
+        let rest =
+            Medium { rayleigh: laws.rayleigh, absorption: laws.absorption, irradiance: laws.irradiance, ..medium };
+        assert_eq!(rest, laws);
+    }
+}
+
 #[test]
 fn rayleigh_follows_the_fourth_power() {
     // reference-values.md A: 1.24062e-6 λ⁻⁴, λ in µm.
-    for (beta, nanometres) in Medium::EARTH.rayleigh.into_iter().zip(WAVELENGTHS) {
+    for (beta, nanometres) in Medium::BRUNETON.rayleigh.into_iter().zip(WAVELENGTHS) {
         assert!((beta / (1.24062e-6 * (nanometres * 1e-3).powi(-4)) - 1.0).abs() < 1e-4);
     }
 }
 
 #[test]
-fn earth_is_the_published_set() {
+fn bruneton_is_the_published_set() {
     // reference-values.md A.
-    let m = Medium::EARTH;
-    assert_eq!((m.radius, m.radius + m.height, WAVELENGTHS), (6_360_000.0, 6_420_000.0, [680.0, 550.0, 440.0]));
+    let m = Medium::BRUNETON;
+    assert_eq!((m.radius, m.radius + m.height, m.wavelengths), (6_360_000.0, 6_420_000.0, [680.0, 550.0, 440.0]));
     assert_eq!((m.irradiance, m.sun_radius), ([1.474, 1.8504, 1.91198], 0.004675));
     assert_eq!((m.rayleigh_height, m.mie_height, m.mie_asymmetry), (8_000.0, 1_200.0, 0.8));
     assert!(m.mie_extinction().iter().all(|e| (e - 4.44e-6).abs() < 1e-18));
@@ -65,7 +90,7 @@ fn earth_is_the_published_set() {
 
 #[test]
 fn lossless_air_keeps_all_light() {
-    let m = Medium::EARTH.lossless();
+    let m = Medium::BRUNETON.lossless();
     assert_eq!(m.mie_extinction(), m.mie_scattering);
     assert_eq!((m.absorption, m.albedo), ([0.0; 3], [1.0; 3]));
 }

@@ -45,5 +45,5 @@ impl<T: Light> Sky<T> {
 /// Earth's sky as the device computes it, made once for all tests.
 fn earth() -> &'static Sky<f32> {
     static EARTH: OnceLock<Sky<f32>> = OnceLock::new();
-    EARTH.get_or_init(|| Sky::new(&Medium::EARTH))
+    EARTH.get_or_init(|| Sky::new(&Medium::BRUNETON))
 }

@@ -13,7 +13,7 @@ fn layers_thin_as_they_should() {
 
 #[test]
 fn extinction_sums_the_layers() {
-    let m = Medium::EARTH;
+    let m = Medium::BRUNETON;
     let at_ground = m.extinction(m.densities(0.0));
     for (found, molecules) in at_ground.into_iter().zip(m.rayleigh) {
         assert!((found - (molecules + 4.44e-6)).abs() < 1e-18);

@@ -75,7 +75,7 @@ impl<'a> Sky<'a> {
         Self { medium, depths: DepthTable::all(medium) }
     }
 
-    /// The radiance that comes along `view` at `WAVELENGTHS[wavelength]`, from `paths` paths: the same for the same
+    /// The radiance that comes along `view` at `medium.wavelengths[wavelength]`, from `paths` paths: the same for the same
     /// `seed`, while views and wavelengths do not share their noise.
     pub fn radiance(&self, view: &Ray, wavelength: usize, paths: u64, seed: u64) -> Estimate {
         let Some(start) = view.into_air(self.medium) else { return Estimate { mean: 0.0, standard_error: 0.0 } };

@@ -6,7 +6,7 @@ pub const FIRST: f64 = 360.0;
 pub const LAST: f64 = 830.0;
 /// Step of [`CIE_1931`], in nanometres.
 pub const CIE_STEP: f64 = 5.0;
-/// Step of [`SOLAR`], in nanometres.
+/// Step of [`SOLAR`] and [`OZONE`], in nanometres.
 pub const SOLAR_STEP: f64 = 10.0;
 
 /// From CIE XYZ to linear sRGB, rows red, green, blue (IEC 61966-2-1, four digits as in the standard).
@@ -23,6 +23,18 @@ pub const SOLAR: [f64; 48] = [
     1.7533, 1.6965, 1.68194, 1.64654, 1.6048, 1.52143, 1.55622, 1.5113,
     1.474, 1.4482, 1.41018, 1.36775, 1.34188, 1.31429, 1.28303, 1.26758,
     1.2367, 1.2082, 1.18737, 1.14683, 1.12362, 1.1058, 1.07124, 1.04992,
+];
+
+/// Ozone's absorption cross-section at 233 K, in m², from 360 to 830 nm in steps of 10: IUP Bremen (Serdyuchenko et al. 2014),
+/// averaged over each step (the table of Bruneton 2017's demo).
+#[rustfmt::skip]
+pub const OZONE: [f64; 48] = [
+    1.18e-27, 2.182e-28, 2.818e-28, 6.636e-28, 1.527e-27, 2.763e-27, 5.52e-27, 8.451e-27,
+    1.582e-26, 2.316e-26, 3.669e-26, 4.924e-26, 7.752e-26, 9.016e-26, 1.48e-25, 1.602e-25,
+    2.139e-25, 2.755e-25, 3.091e-25, 3.5e-25, 4.266e-25, 4.672e-25, 4.398e-25, 4.701e-25,
+    5.019e-25, 4.305e-25, 3.74e-25, 3.215e-25, 2.662e-25, 2.238e-25, 1.852e-25, 1.473e-25,
+    1.209e-25, 9.423e-26, 7.455e-26, 6.566e-26, 5.105e-26, 4.15e-26, 4.228e-26, 3.237e-26,
+    2.451e-26, 2.801e-26, 2.534e-26, 1.624e-26, 1.465e-26, 2.078e-26, 1.383e-26, 7.105e-27,
 ];
 
 /// Colour matching functions x̄, ȳ, z̄ of the CIE 1931 2° observer, from 360 to 830 nm in steps of 5 (CIE 15; digits as

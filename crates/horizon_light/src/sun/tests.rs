@@ -8,7 +8,7 @@ const RADIUS: f64 = 0.004_675;
 const UP: [f64; 3] = [0.0, 1.0, 0.0];
 
 fn sun() -> SunDisc<f64> {
-    SunDisc::sun([1.474, 1.8504, 1.91198], RADIUS)
+    SunDisc::of(&Medium::BRUNETON)
 }
 
 /// At an angle from a star at [`UP`].
@@ -89,7 +89,10 @@ fn a_ramp_over_the_edge_gains_light() {
 #[test]
 fn luminance_is_the_suns() {
     let lux = crate::spectrum::sun_luminance_factors([1.474, 1.8504, 1.91198]);
-    let disc = SunDisc::sun(core::array::from_fn(|c| lux[c] * [1.474, 1.8504, 1.91198][c]), RADIUS);
+    let disc = SunDisc::of(&Medium {
+        irradiance: core::array::from_fn(|c| lux[c] * [1.474, 1.8504, 1.91198][c]),
+        ..Medium::BRUNETON
+    });
     let center = crate::spectrum::luminance(disc.luminance(UP, UP, 0.0));
     assert!((2.2e9..2.6e9).contains(&center), "{center}");
     let limb = disc.luminance(off(0.95 * RADIUS), UP, 0.0);
@@ -221,7 +224,7 @@ proptest! {
         mu_s in -1.0_f32..=1.0,
         h in 0.0_f32..6.4e8,
     ) {
-        let disc: SunDisc<f32> = SunDisc::sun([1e5; 3], radius).cast();
+        let disc: SunDisc<f32> = SunDisc::of(&Medium { irradiance: [1e5; 3], sun_radius: radius, ..Medium::BRUNETON }).cast();
         let length = view.iter().map(|x| x * x).sum::<f32>().sqrt().max(1e-3);
         let l = disc.luminance(view.map(|x| x / length), [0.0, 1.0, 0.0], pixel.min(3.0));
         let visible = disc.visible(above_horizon(mu_s, h, 6.36e6));

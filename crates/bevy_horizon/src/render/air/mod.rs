@@ -2,6 +2,7 @@
 //! when its altitude or the sun has changed.
 
 mod pipelines;
+mod sizes;
 mod tables;
 mod view;
 
@@ -11,6 +12,7 @@ use bevy::render::renderer::{RenderContext, RenderDevice, RenderQueue};
 use bevy::render::view::ExtractedView;
 
 pub(crate) use self::pipelines::AirPipelines;
+pub use self::sizes::sky_table_bytes;
 pub(crate) use self::tables::AirTables;
 pub(crate) use self::view::ViewAir;
 use super::extract::{ExtractedHorizonCamera, ExtractedWorld};
@@ -44,7 +46,7 @@ pub(crate) fn prepare_airs(
         };
         let atmosphere = &found.compiled.atmosphere;
         let table = tables.find(atmosphere, &mut pipelines, &cache, &device, &queue);
-        let seen = view::Seen::new(&world, found, view, camera, &ground, tables.to_rgb(table));
+        let seen = view::Seen::new(&world, found, view, camera, &ground, tables.seen(table));
         ground.offsets[1] = uniforms.airs.push(&seen.uniform);
         let made = tables.made(table);
         ground.sky = made.then_some(ViewSky::Air { model: atmosphere.model, table });

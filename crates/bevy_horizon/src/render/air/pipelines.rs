@@ -13,6 +13,7 @@ use bevy::render::render_resource::{
 
 use super::super::shaders::Source;
 use super::super::uniforms::{AirUniform, MediumUniform};
+use super::sizes;
 use crate::world::SkyModel;
 
 /// A step of making tables.
@@ -62,12 +63,13 @@ impl Step {
 
     /// Work groups of its shader.
     pub fn groups(self) -> [u32; 2] {
+        let eighths = |[width, height]: [u32; 2]| [width / 8, height / 8];
         match self {
-            Self::Transmittance => [256 / 8, 64 / 8],
-            Self::FirstOrder | Self::SecondOrder | Self::ThirdOrder => [32, 12],
-            Self::Isotropic => [32 / 8, 32 / 8],
-            Self::SkyView(_) => [48 / 8, 72 / 8],
-            Self::Aerial(_) => [32 / 8, 36 / 4],
+            Self::Transmittance => eighths(sizes::TRANSMITTANCE),
+            Self::FirstOrder | Self::SecondOrder | Self::ThirdOrder => sizes::MOMENTS,
+            Self::Isotropic => eighths(sizes::ISOTROPIC),
+            Self::SkyView(_) => eighths(sizes::SKY),
+            Self::Aerial(_) => [sizes::AERIAL[0] / 8, sizes::AERIAL[1] / 4],
         }
     }
 

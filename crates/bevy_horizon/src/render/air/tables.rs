@@ -11,17 +11,12 @@ use bevy::render::renderer::{RenderContext, RenderDevice, RenderQueue};
 use horizon_light::medium::Medium;
 use horizon_light::models::air::Air;
 use horizon_light::spectrum::Star;
+use horizon_light::sun::SunDisc;
 
-use super::super::uniforms::MediumUniform;
+use super::super::uniforms::{DiscUniform, MediumUniform};
 use super::pipelines::{AirPipelines, Step};
+use super::sizes::{self, TEXEL};
 use crate::world::{Atmosphere, SkyModel};
-
-/// A texel: a colour and a number that is free.
-const TEXEL: u64 = 16;
-const TRANSMITTANCES: u64 = 256 * 64;
-/// An order of the moments.
-const MOMENTS: u64 = 32 * 12 * 6;
-const ISOTROPIC: u64 = 32 * 32;
 
 /// The tables of all media.
 #[derive(Resource, Default)]
@@ -35,7 +30,7 @@ pub struct AirTables {
 struct AirTable {
     model: SkyModel,
     medium: Medium,
-    to_rgb: Mat3,
+    seen: SeenMedium,
     uniform: Buffer,
     transmittances: Buffer,
     multiple: Buffer,
@@ -48,15 +43,30 @@ struct AirTable {
     used: bool,
 }
 
-fn medium_bytes(medium: &Medium) -> Vec<u8> {
-    let mut bytes = encase::UniformBuffer::new(Vec::new());
-    bytes.write(&MediumUniform::new(&Air::new(medium))).expect("a vector takes any size");
-    bytes.into_inner()
+/// What the shaders see of a medium: it does not change from frame to frame.
+#[derive(Clone, Copy)]
+pub struct SeenMedium {
+    pub medium: MediumUniform,
+    pub disc: DiscUniform,
+    /// From radiance at the medium's wavelengths to linear sRGB in cd/m²: integrals over the spectrum.
+    pub to_rgb: Mat3,
 }
 
-/// From radiance at the medium's wavelengths to linear sRGB.
-fn to_rgb(medium: &Medium) -> Mat3 {
-    Mat3::from_cols_array_2d(&Star::new(medium.irradiance).matrix().map(|row| row.map(|x| x as f32))).transpose()
+impl SeenMedium {
+    fn new(medium: &Medium) -> Self {
+        let rows = Star::of(medium).matrix().map(|row| row.map(|x| x as f32));
+        Self {
+            medium: MediumUniform::new(&Air::new(medium)),
+            disc: DiscUniform::new(&SunDisc::of(medium).cast()),
+            to_rgb: Mat3::from_cols_array_2d(&rows).transpose(),
+        }
+    }
+
+    fn bytes(&self) -> Vec<u8> {
+        let mut bytes = encase::UniformBuffer::new(Vec::new());
+        bytes.write(&self.medium).expect("a vector takes any size");
+        bytes.into_inner()
+    }
 }
 
 impl AirTable {
@@ -70,18 +80,13 @@ impl AirTable {
             })
         };
         let model = atmosphere.model;
-        // What a model does not have is bound all the same, at its least size.
-        let multiple = match model {
-            SkyModel::Full => MOMENTS,
-            SkyModel::Fast => ISOTROPIC,
-            SkyModel::Single | SkyModel::Gradient => 1,
-        };
-        let orders = buffer("horizon_air_orders", if model == SkyModel::Full { 3 * MOMENTS } else { 1 });
-        let transmittances = buffer("horizon_air_transmittance", TRANSMITTANCES);
-        let multiple = buffer("horizon_air_multiple", multiple);
+        let orders = buffer("horizon_air_orders", sizes::order_texels(model));
+        let transmittances = buffer("horizon_air_transmittance", sizes::texels(sizes::TRANSMITTANCE));
+        let multiple = buffer("horizon_air_multiple", sizes::multiple_texels(model));
+        let seen = SeenMedium::new(&atmosphere.medium);
         let uniform = device.create_buffer_with_data(&BufferInitDescriptor {
             label: Some("horizon_medium"),
-            contents: &medium_bytes(&atmosphere.medium),
+            contents: &seen.bytes(),
             usage: BufferUsages::UNIFORM | BufferUsages::COPY_DST,
         });
         let group = device.create_bind_group(
@@ -97,7 +102,7 @@ impl AirTable {
         Self {
             model,
             medium: atmosphere.medium,
-            to_rgb: to_rgb(&atmosphere.medium),
+            seen,
             uniform,
             transmittances,
             multiple,
@@ -142,9 +147,9 @@ impl AirTables {
         let table = &mut self.tables[index];
         if table.medium != atmosphere.medium {
             table.medium = atmosphere.medium;
-            table.to_rgb = to_rgb(&atmosphere.medium);
+            table.seen = SeenMedium::new(&atmosphere.medium);
             table.stale = true;
-            queue.write_buffer(&table.uniform, 0, &medium_bytes(&atmosphere.medium));
+            queue.write_buffer(&table.uniform, 0, &table.seen.bytes());
         }
         if table.stale && pipelines.ready(model, cache) {
             (table.stale, table.due) = (false, true);
@@ -172,9 +177,9 @@ impl AirTables {
         self.tables[table].version
     }
 
-    /// From radiance at the medium's wavelengths to linear sRGB in cd/m².
-    pub fn to_rgb(&self, table: usize) -> Mat3 {
-        self.tables[table].to_rgb
+    /// What the shaders see of the medium.
+    pub fn seen(&self, table: usize) -> &SeenMedium {
+        &self.tables[table].seen
     }
 
     /// Transmittance, and diffuse light.

@@ -9,21 +9,16 @@ use bevy::render::render_resource::{
 };
 use bevy::render::renderer::{RenderContext, RenderDevice};
 use bevy::render::view::ExtractedView;
-use horizon_light::models::air::Air;
 use horizon_light::models::moments::HARMONICS;
-use horizon_light::sun::SunDisc;
 
 use super::super::extract::{ExtractedAtmosphere, ExtractedHorizonCamera, ExtractedWorld};
-use super::super::uniforms::{AirUniform, DiscUniform, MediumUniform};
+use super::super::uniforms::AirUniform;
 use super::super::view::{HorizonViews, ViewGround, ViewSky};
 use super::pipelines::{AirPipelines, Step};
-use super::tables::AirTables;
+use super::sizes::{AERIAL, SKY, TEXEL, VOLUMES, texels};
+use super::tables::{AirTables, SeenMedium};
 use crate::world::altitude;
 
-/// Texels of the sky all round: azimuths, and rows above and below the horizon.
-const SKY: u64 = 48 * (48 + 24);
-/// Texels of aerial perspective: azimuths, rows above and below the horizon, slices.
-const AERIAL: [u32; 3] = [32, 16 + 20, 24];
 /// Metres, and parts of its altitude, by which a camera may rise before its tables are made anew: the densest layer that is usual
 /// thins by e over a kilometre.
 const RISE: [f32; 2] = [1.0, 2e-3];
@@ -42,10 +37,9 @@ impl Seen {
         view: &ExtractedView,
         camera: &ExtractedHorizonCamera,
         ground: &ViewGround,
-        to_rgb: Mat3,
+        seen: &SeenMedium,
     ) -> Self {
         let atmosphere = &found.compiled.atmosphere;
-        let medium = &atmosphere.medium;
         let eye = view.world_from_view.translation();
         let h = altitude(&crate::world::WorldOrigin(world.origin), eye, found.translation) as f32;
         let above_datum = (ground.eye.cell[1] as f64 * horizon_field::CELL + ground.eye.offset[1]) as f32;
@@ -53,14 +47,13 @@ impl Seen {
         let sun = world.sun.map_or(Vec3::NEG_Y, |sun| sun.direction);
         let mut diffuse = [Vec3::ZERO; HARMONICS];
         if let Some(light) = &found.compiled.light {
-            diffuse = light.moments.at(&light.air, h.min(medium.height as f32), sun.y).map(Vec3::from_array);
+            diffuse = light.moments.at(&light.air, h.min(atmosphere.medium.height as f32), sun.y).map(Vec3::from_array);
         }
-        let disc = SunDisc::sun(medium.irradiance, medium.sun_radius).cast::<f32>();
         Self {
             uniform: AirUniform {
-                medium: MediumUniform::new(&Air::new(medium)),
-                disc: DiscUniform::new(&disc),
-                to_rgb,
+                medium: seen.medium,
+                disc: seen.disc,
+                to_rgb: seen.to_rgb,
                 diffuse,
                 sun,
                 h,
@@ -88,7 +81,7 @@ struct Made {
 pub struct ViewAir {
     sky: Buffer,
     /// Light and transmittance of aerial perspective.
-    aerial: [TextureView; 2],
+    aerial: [TextureView; VOLUMES],
     sampler: Sampler,
     /// What the sky and aerial perspective were made of.
     made: [Option<Made>; 2],
@@ -117,7 +110,7 @@ impl ViewAir {
         Self {
             sky: device.create_buffer(&BufferDescriptor {
                 label: Some("horizon_sky_view"),
-                size: SKY * 16,
+                size: texels(SKY) * TEXEL,
                 usage: BufferUsages::STORAGE,
                 mapped_at_creation: false,
             }),

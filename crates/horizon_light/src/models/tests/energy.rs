@@ -45,7 +45,7 @@ fn returned(air: &Air<f64>, transmittance: &Transmittance<f64>, moments: &Moment
 
 #[test]
 fn a_white_furnace_loses_nothing() {
-    let air = Air::<f64>::new(&Medium::EARTH.lossless());
+    let air = Air::<f64>::new(&Medium::BRUNETON.lossless());
     let transmittance = Transmittance::new(&air);
     let long = Resolution { passes: 24, ..Resolution::DEFAULT };
     let orders = Moments::orders(&air, &transmittance, long);

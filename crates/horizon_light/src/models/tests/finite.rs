@@ -39,7 +39,7 @@ fn media() -> impl Strategy<Value = Medium> {
         albedo: [rest.1; 3],
         absorption_peak: rest.2,
         absorption_width: rest.3,
-        ..Medium::EARTH
+        ..Medium::BRUNETON
     })
 }
 

@@ -48,7 +48,7 @@ fn phase_functions_have_these_moments() {
     };
     assert!((moment(&rayleigh_phase, 1)).abs() < 1e-12 && (moment(&rayleigh_phase, 2) - 0.1).abs() < 1e-12);
     for g in [-0.5, 0.0, 0.3, 0.8] {
-        let [first, second] = Air::<f64>::new(&Medium { mie_asymmetry: g, ..Medium::EARTH }).mie_moments;
+        let [first, second] = Air::<f64>::new(&Medium { mie_asymmetry: g, ..Medium::BRUNETON }).mie_moments;
         assert!((moment(&|x| mie_phase(g, x), 1) - first).abs() < 1e-9, "{g}");
         assert!((moment(&|x| mie_phase(g, x), 2) - second).abs() < 1e-9, "{g}");
     }
@@ -56,7 +56,7 @@ fn phase_functions_have_these_moments() {
 
 #[test]
 fn sun_coordinates_invert() {
-    for medium in [Medium::EARTH, Medium::SMALL_PLANET, Medium { height: 1.0, ..Medium::EARTH }] {
+    for medium in [Medium::BRUNETON, Medium::SMALL_PLANET, Medium { height: 1.0, ..Medium::BRUNETON }] {
         let air = Air::<f64>::new(&medium);
         for i in 0..=100 {
             let u = f64::from(i) / 100.0;
@@ -86,7 +86,7 @@ fn difference(air: &Air<f64>, a: &Moments<f64>, b: &Moments<f64>) -> f64 {
 
 #[test]
 fn the_table_is_fine_enough() {
-    let air = Air::<f64>::new(&Medium::EARTH);
+    let air = Air::<f64>::new(&Medium::BRUNETON);
     let transmittance = Transmittance::new(&air);
     let ours = Moments::new(&air, &transmittance);
     let fine = Resolution { suns: 64, altitudes: 20, steps: 16, passes: 4 };
@@ -111,7 +111,7 @@ fn the_table_is_fine_enough() {
 
 #[test]
 fn single_precision_is_enough() {
-    let (narrow, wide) = (super::earth(), Sky::<f64>::new(&Medium::EARTH));
+    let (narrow, wide) = (super::earth(), Sky::<f64>::new(&Medium::BRUNETON));
     for (a, b) in narrow.moments.0.texels.iter().zip(&wide.moments.0.texels) {
         for k in 0..3 {
             let (a, b) = (f64::from(a[0][k]), b[0][k]);

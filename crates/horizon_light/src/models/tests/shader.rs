@@ -84,6 +84,7 @@ fn twins_share_their_constants() {
     has(MOMENTS_COMPUTE, format!("const MOMENTS_STEPS: u32 = {steps}u;"));
     has(MOMENTS_COMPUTE, format!("const MOMENTS_PASSES: u32 = {passes}u;"));
     has(ISOTROPIC_COMPUTE, format!("const ISOTROPIC_SIZE: vec2<u32> = vec2({}u);", isotropic::SIZE));
+    has(ISOTROPIC, format!("vec2(0.5 * mu_s + 0.5, h / air.height), vec2({}u)", isotropic::SIZE));
     has(ISOTROPIC_COMPUTE, format!("const ISOTROPIC_STEPS: u32 = {}u;", isotropic::STEPS));
     has(SKY_VIEW_COMPUTE, format!("const SKY_VIEW_AZIMUTHS: u32 = {}u;", sky_view::AZIMUTHS));
     has(SKY_VIEW_COMPUTE, format!("const SKY_VIEW_ABOVE: u32 = {}u;", sky_view::ABOVE));

@@ -24,7 +24,7 @@ fn f32_ray(ray: &Ray) -> SkyRay<f32> {
 #[test]
 fn the_models_against_monte_carlo() {
     let Sky { air, moments, isotropic, .. } = earth();
-    let truth = monte_carlo::Sky::new(&Medium::EARTH);
+    let truth = monte_carlo::Sky::new(&Medium::BRUNETON);
     for (zenith, h, allowed) in CASES {
         let mu_s = zenith.to_radians().cos() as f32;
         let table = SkyView::new(&earth().scene(moments), h as f32, mu_s, VIEW_STEPS);
@@ -66,7 +66,7 @@ fn rays() -> impl Iterator<Item = SkyRay<f32>> {
     altitudes
         .into_iter()
         .flat_map(|h| {
-            let horizon = horizon_cosine(Medium::EARTH.radius as f32, h);
+            let horizon = horizon_cosine(Medium::BRUNETON.radius as f32, h);
             [0.9, 0.3, 0.05, horizon + 1e-3, horizon - 1e-3, -0.5, -1.0].map(|mu| (h, mu))
         })
         .flat_map(|(h, mu)| {

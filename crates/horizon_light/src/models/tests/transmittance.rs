@@ -31,21 +31,21 @@ fn largest_error(table: impl Fn(f32, f32) -> [f32; 3], medium: &Medium) -> f64 {
 #[test]
 fn the_table_agrees_with_quadrature() {
     let Sky { air, transmittance, .. } = earth();
-    let error = largest_error(|h, mu| transmittance.to_top(air, h, mu), &Medium::EARTH);
+    let error = largest_error(|h, mu| transmittance.to_top(air, h, mu), &Medium::BRUNETON);
     assert!(error < 1.5e-3, "{error}");
 }
 
 /// A table whose rows and columns are even in altitude and cosine, of the same size, is what ours is better than.
 #[test]
 fn an_even_table_misses_the_horizon() {
-    let air = Air::<f32>::new(&Medium::EARTH);
+    let air = Air::<f32>::new(&Medium::BRUNETON);
     let ours = Transmittance::sized(&air, 64, 16);
     let even = crate::models::table::Table::of(64, 16, |x, y| {
         let h = 6e4 * y as f64 / 15.0;
-        [transmittance_to_top(&Medium::EARTH, h, 2.0 * x as f64 / 63.0 - 1.0).map(|t| t as f32)]
+        [transmittance_to_top(&Medium::BRUNETON, h, 2.0 * x as f64 / 63.0 - 1.0).map(|t| t as f32)]
     });
-    let ours = largest_error(|h, mu| ours.to_top(&air, h, mu), &Medium::EARTH);
-    let even = largest_error(|h, mu| even.at(0.5 * mu + 0.5, h / 6e4)[0], &Medium::EARTH);
+    let ours = largest_error(|h, mu| ours.to_top(&air, h, mu), &Medium::BRUNETON);
+    let even = largest_error(|h, mu| even.at(0.5 * mu + 0.5, h / 6e4)[0], &Medium::BRUNETON);
     assert!(ours < 0.01 && even > 0.05, "{ours} {even}");
 }
 

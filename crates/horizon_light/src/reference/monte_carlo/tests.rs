@@ -2,7 +2,7 @@ use super::*;
 use core::f64::consts::{PI, TAU};
 use std::sync::LazyLock;
 
-static EARTH: LazyLock<Sky<'static>> = LazyLock::new(|| Sky::new(&Medium::EARTH));
+static EARTH: LazyLock<Sky<'static>> = LazyLock::new(|| Sky::new(&Medium::BRUNETON));
 
 #[test]
 fn two_estimators_agree() {
@@ -65,7 +65,7 @@ fn standard_errors_are_what_they_say() {
 fn a_white_furnace_keeps_its_light() {
     // Light that arrives on the disc of the top leaves it again: at any angle with the sun, or straight on beside the
     // ground.
-    let medium = Medium::EARTH.lossless();
+    let medium = Medium::BRUNETON.lossless();
     let sky = Sky::new(&medium);
     let top = medium.radius + medium.height;
     // Suns all around the planet and views down through the top, spread by a Kronecker sequence (powers of the root of

@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 use super::*;
 use crate::reference::monte_carlo::Sky;
 
-static EARTH: LazyLock<Orders<'static>> = LazyLock::new(|| Orders::new(&Medium::EARTH, Resolution::COARSE, 1e-3));
+static EARTH: LazyLock<Orders<'static>> = LazyLock::new(|| Orders::new(&Medium::BRUNETON, Resolution::COARSE, 1e-3));
 
 /// A grid for tests of its parts.
 const SMALL: Resolution = Resolution { altitudes: 8, suns: 12, cosines: 12, azimuths: 8, steps: 8, degree: 4 };
@@ -49,7 +49,7 @@ fn irradiance_of_a_uniform_sky() {
 
 #[test]
 fn orders_agree_with_paths() {
-    let sky = Sky::new(&Medium::EARTH);
+    let sky = Sky::new(&Medium::BRUNETON);
     for (h, sun) in [(2.0, 30.0_f64), (2.0, 65.0), (2.0, 80.0), (2.0, 88.0), (2.0, 91.5), (8_000.0, 65.0)] {
         for (zenith, azimuth) in [(20.0_f64, 0.0_f64), (80.0, 90.0), (88.0, 180.0)] {
             let view = Ray::of_angles(h, zenith.to_radians(), sun.to_radians(), azimuth.to_radians());
@@ -69,7 +69,7 @@ fn orders_agree_with_paths() {
 
 #[test]
 fn orders_agree_with_paths_from_space() {
-    let sky = Sky::new(&Medium::EARTH);
+    let sky = Sky::new(&Medium::BRUNETON);
     for (zenith, azimuth) in [(180.0_f64, 0.0_f64), (130.0, 180.0), (109.0, 180.0)] {
         let view = Ray::of_angles(400_000.0, zenith.to_radians(), 80.0_f64.to_radians(), azimuth.to_radians());
         let (ours, paths) = (EARTH.radiance(&view)[2], sky.radiance(&view, 2, 40_000, 12));
@@ -81,7 +81,7 @@ fn orders_agree_with_paths_from_space() {
 fn a_white_furnace_keeps_its_light() {
     // The sun's light on the top's disc either passes beside the ground unscattered, or leaves in some order. Nothing
     // is absorbed.
-    let medium = Medium::EARTH.lossless();
+    let medium = Medium::BRUNETON.lossless();
     let orders = Orders::new(&medium, Resolution { altitudes: 14, azimuths: 8, degree: 6, ..Resolution::COARSE }, 1e-3);
     let ring = passed(&medium, &orders.depths);
     for k in 0..3 {
@@ -117,7 +117,7 @@ fn passed(medium: &Medium, depths: &[DepthTable; 3]) -> [f64; 3] {
 
 #[test]
 fn harmonics_are_orthonormal() {
-    let grid = Grid::new(&Medium::EARTH, Resolution { cosines: 16, azimuths: 12, degree: 6, ..SMALL });
+    let grid = Grid::new(&Medium::BRUNETON, Resolution { cosines: 16, azimuths: 12, degree: 6, ..SMALL });
     let n = harmonics::count(6);
     let (mut sums, mut values) = (vec![0.0; n * n], vec![0.0; n]);
     for (mu, weight) in grid.directions(1_000.0) {

@@ -40,7 +40,7 @@ fn scattered_once_on_the_way_down() {
 #[test]
 fn light_begins_at_the_shadow_edge() {
     // From the night side the ray's first stretch is dark: quadrature that is split there agrees with small steps.
-    let m = Medium::EARTH;
+    let m = Medium::BRUNETON;
     let ray = Ray::of_angles(2.0, 1.2, 1.65, 0.3);
     let length = distance_to_end(m.radius, m.height, ray.h, ray.mu);
     let n = 20_000;
@@ -53,7 +53,7 @@ fn light_begins_at_the_shadow_edge() {
 
 #[test]
 fn a_part_of_the_way_brings_less() {
-    let m = Medium::EARTH;
+    let m = Medium::BRUNETON;
     let ray = Ray::of_angles(100.0, 1.4, 1.1, 2.0);
     let length = distance_to_end(m.radius, m.height, ray.h, ray.mu);
     let brought = [0.1, 0.5, 1.0].map(|part| scattered_within(&m, &ray, part * length).rayleigh[2]);
@@ -63,7 +63,7 @@ fn a_part_of_the_way_brings_less() {
 
 #[test]
 fn rays_that_miss_the_air_are_dark_and_lit_ground_is_not() {
-    let m = Medium::EARTH;
+    let m = Medium::BRUNETON;
     assert_eq!(radiance(&m, &Ray { h: 1e6, mu: 0.1, mu_s: 1.0, nu: 0.1 }), [0.0; 3]);
     // Straight down at noon: the ground shows its albedo through twice the air, and the air scatters on top.
     let seen = radiance(&m, &Ray { h: 1e6, mu: -1.0, mu_s: 1.0, nu: -1.0 });

@@ -17,7 +17,7 @@ fn by_small_steps(medium: &Medium, h: f64, mu: f64, length: f64) -> [f64; 3] {
 
 #[test]
 fn columns_are_those_of_small_steps() {
-    let m = Medium::EARTH;
+    let m = Medium::BRUNETON;
     for (h, mu) in
         [(0.0, 1.0), (2.0, 0.0), (2.0, horizon_cosine(m.radius, 2.0) + 1e-9), (30_000.0, -0.05), (60_000.0, -0.1)]
     {
@@ -33,7 +33,7 @@ fn columns_are_those_of_small_steps() {
 #[test]
 fn vertical_depth_of_molecules() {
     // reference-values.md A, derived: 0.046393, 0.108404, 0.264654 over 60 km.
-    let m = Medium { absorption: [0.0; 3], ..Medium::EARTH.without_mie() };
+    let m = Medium { absorption: [0.0; 3], ..Medium::BRUNETON.without_mie() };
     let depths = optical_depth(&m, 0.0, 1.0, 60_000.0);
     let through = transmittance_to_top(&m, 0.0, 1.0);
     for (k, (depth, left)) in [(0.046393, 0.9547), (0.108404, 0.8973), (0.264654, 0.7675)].into_iter().enumerate() {
@@ -72,7 +72,7 @@ fn a_uniform_medium() {
 
 #[test]
 fn the_ground_hides_the_sun() {
-    let m = Medium::EARTH;
+    let m = Medium::BRUNETON;
     let horizon = horizon_cosine(m.radius, 1000.0);
     assert_eq!(transmittance_to_top(&m, 1000.0, horizon - 1e-9), [0.0; 3]);
     assert!(transmittance_to_top(&m, 1000.0, horizon + 1e-9).iter().all(|&t| t > 0.0));
@@ -80,7 +80,7 @@ fn the_ground_hides_the_sun() {
 
 #[test]
 fn the_table_interpolates() {
-    let m = Medium::EARTH;
+    let m = Medium::BRUNETON;
     let tables = DepthTable::all(&m);
     let mut random = crate::reference::random::Random::new(7, 0);
     let (mut errors, mut worst_depth) = (Vec::new(), 0.0_f64);

@@ -1,22 +1,12 @@
 //! Light of a clear sky at any wavelength: single scattering over a sphere, as a truth for colours.
 
 use crate::medium::Medium;
+use crate::spectrum::earth::{ozone_absorption, rayleigh_scattering};
 use crate::spectrum::solar_irradiance;
 use core::f64::consts::PI;
 use libm::{cos, exp, pow, sqrt};
 
-/// Ozone's absorption cross-section at 233 K, in m², from 360 nm in steps of 10 (IUP Bremen, averaged by Bruneton 2017).
-#[rustfmt::skip]
-const OZONE: [f64; 48] = [
-    1.18e-27, 2.182e-28, 2.818e-28, 6.636e-28, 1.527e-27, 2.763e-27, 5.52e-27, 8.451e-27,
-    1.582e-26, 2.316e-26, 3.669e-26, 4.924e-26, 7.752e-26, 9.016e-26, 1.48e-25, 1.602e-25,
-    2.139e-25, 2.755e-25, 3.091e-25, 3.5e-25, 4.266e-25, 4.672e-25, 4.398e-25, 4.701e-25,
-    5.019e-25, 4.305e-25, 3.74e-25, 3.215e-25, 2.662e-25, 2.238e-25, 1.852e-25, 1.473e-25,
-    1.209e-25, 9.423e-26, 7.455e-26, 6.566e-26, 5.105e-26, 4.15e-26, 4.228e-26, 3.237e-26,
-    2.451e-26, 2.801e-26, 2.534e-26, 1.624e-26, 1.465e-26, 2.078e-26, 1.383e-26, 7.105e-27,
-];
-
-const EARTH: Medium = Medium::EARTH;
+const EARTH: Medium = Medium::BRUNETON;
 
 /// Densities of molecules, aerosols and ozone.
 fn densities(h: f64) -> [f64; 3] {
@@ -85,12 +75,8 @@ impl Scene {
     /// Spectral radiance in W m⁻² sr⁻¹ nm⁻¹.
     pub fn radiance(&self, nm: f64) -> f64 {
         let (nu, g) = (self.nu, EARTH.mie_asymmetry);
-        let x = ((nm - 360.0) / 10.0).clamp(0.0, 46.999);
-        let i = x as usize;
-        // 300 Dobson units of 2.687e20 molecules per m² in a tent of 15 km.
-        let ozone = (OZONE[i] + (OZONE[i + 1] - OZONE[i]) * (x - i as f64)) * 300.0 * 2.687e20 / 15_000.0;
-        let rayleigh = 1.24062e-6 * pow(nm / 1000.0, -4.0);
-        let extinction = [rayleigh, if self.haze { 4.44e-6 } else { 0.0 }, if self.ozone { ozone } else { 0.0 }];
+        let ozone = if self.ozone { ozone_absorption(nm) } else { 0.0 };
+        let extinction = [rayleigh_scattering(nm), if self.haze { 4.44e-6 } else { 0.0 }, ozone];
         let phase = [
             3.0 / (16.0 * PI) * (1.0 + nu * nu),
             3.0 / (8.0 * PI) * (1.0 - g * g) * (1.0 + nu * nu) / ((2.0 + g * g) * pow(1.0 + g * g - 2.0 * g * nu, 1.5)),
