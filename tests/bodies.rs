@@ -356,7 +356,10 @@ fn a_floating_origin_leaves_bodies_on_their_ground() {
 #[test]
 fn a_plate_carries_what_lies_on_it_and_only_its_tiles_are_made_again() {
     let mut app = app(Place::ORIGIN, HorizonAvianPlugin::default());
-    let level = 2.0 + app.world_mut().run_system_once(|world: HorizonQuery| world.height(Vec3::ZERO).unwrap()).unwrap();
+    let bare = |app: &mut App, x: f32| {
+        app.world_mut().run_system_once(move |world: HorizonQuery| world.height(Vec3::X * x).unwrap()).unwrap()
+    };
+    let (level, aside) = (2.0 + bare(&mut app, 0.0), bare(&mut app, 400.0));
     let at = |y: f32| StampPlace { place: Place::from_metres([0.0, y.into(), 0.0]), heading: 0.0 };
     let plate = Stamp::new(Shape::Disc(Disc { radius: 8.0 }), Mode::Flatten);
     let plate = app.world_mut().spawn((plate, at(level))).id();
@@ -366,7 +369,7 @@ fn a_plate_carries_what_lies_on_it_and_only_its_tiles_are_made_again() {
         app.world_mut().spawn((body, Transform::from_xyz(x, y, 0.0))).id()
     };
     let body = sphere(&mut app, 0.0, level + 2.0);
-    sphere(&mut app, 400.0, 30.0);
+    sphere(&mut app, 400.0, aside + 1.0);
     run(&mut app, 3 * SECOND);
     let height = |app: &App| app.world().get::<Position>(body).unwrap().y;
     assert!((height(&app) - level - RADIUS).abs() < 0.05, "{} over {level}", height(&app));
