@@ -10,6 +10,7 @@ use bevy::time::TimeUpdateStrategy;
 use bevy_horizon::HorizonWorldPlugin;
 use bevy_horizon::avian::{BodyLifted, ground_collider};
 use bevy_horizon::prelude::*;
+use bevy_horizon::stamp::{Disc, Mode, Shape};
 use big_space::prelude::{BigSpaceCommands, BigSpaceDefaultPlugins, CellCoord, FloatingOrigin, Grid};
 use horizon_field::Compiled;
 use horizon_field::field::arbitrary::Random;
@@ -350,4 +351,45 @@ fn a_floating_origin_leaves_bodies_on_their_ground() {
     println!("bodies are displaced by {naive} m where nobody carries them, by {ours} m where they are carried");
     assert!(naive > 1000.0);
     assert!(ours < 0.05);
+}
+
+#[test]
+fn a_plate_carries_what_lies_on_it_and_only_its_tiles_are_made_again() {
+    let mut app = app(Place::ORIGIN, HorizonAvianPlugin::default());
+    let bare = |app: &mut App, x: f32| {
+        app.world_mut().run_system_once(move |world: HorizonQuery| world.height(Vec3::X * x).unwrap()).unwrap()
+    };
+    let (level, aside) = (2.0 + bare(&mut app, 0.0), bare(&mut app, 400.0));
+    let at = |y: f32| StampPlace { place: Place::from_metres([0.0, y.into(), 0.0]), heading: 0.0 };
+    let plate = Stamp::new(Shape::Disc(Disc { radius: 8.0 }), Mode::Flatten);
+    let plate = app.world_mut().spawn((plate, at(level))).id();
+    app.update();
+    let sphere = |app: &mut App, x: f32, y: f32| {
+        let body = (RigidBody::Dynamic, Collider::sphere(RADIUS), AngularDamping(3.0));
+        app.world_mut().spawn((body, Transform::from_xyz(x, y, 0.0))).id()
+    };
+    let body = sphere(&mut app, 0.0, level + 2.0);
+    sphere(&mut app, 400.0, aside + 1.0);
+    run(&mut app, 3 * SECOND);
+    let height = |app: &App| app.world().get::<Position>(body).unwrap().y;
+    assert!((height(&app) - level - RADIUS).abs() < 0.05, "{} over {level}", height(&app));
+
+    let tiles = |app: &mut App| -> Vec<(Entity, [i64; 2])> {
+        let mut tiles = app.world_mut().query::<(Entity, &GroundTile)>();
+        tiles.iter(app.world()).map(|(entity, tile)| (entity, tile.index)).collect()
+    };
+    let before = tiles(&mut app);
+    app.world_mut().entity_mut(plate).insert(at(level - 1.5));
+    // One step to tell, and one to make the tiles.
+    run(&mut app, 2);
+    let after = tiles(&mut app);
+    // Disc and falloff reach 18 m: two tiles of 16 m to each side.
+    let near = |index: &[i64; 2]| index.iter().all(|i| (-2..2).contains(i));
+    let same = |(entity, index): &(Entity, [i64; 2])| near(index) || after.contains(&(*entity, *index));
+    assert!(before.iter().all(same), "tiles were made again far away");
+    let again = before.iter().filter(|(entity, index)| near(index) && !after.iter().any(|(other, _)| other == entity));
+    assert!(again.count() > 3, "the plate's own tiles are made again");
+    run(&mut app, 3 * SECOND);
+    assert!((height(&app) - level + 1.5 - RADIUS).abs() < 0.05, "{} over {}", height(&app), level - 1.5);
+    assert_eq!(app.world().resource::<Seen>().lifted, 0);
 }

@@ -23,4 +23,5 @@ mod shaders;
 mod shadows;
 mod sky;
 mod stability;
+mod stamps;
 mod worlds;

@@ -37,6 +37,8 @@ pub mod render;
 pub mod scene;
 pub mod world;
 
+pub use horizon_field::stamp;
+
 use bevy::app::PluginGroupBuilder;
 use bevy::prelude::*;
 
@@ -55,7 +57,8 @@ pub mod prelude {
     pub use crate::render::ready::{WorldProgress, WorldReady};
     pub use crate::scene::{HorizonWorld, WorldFile};
     pub use crate::world::{
-        Atmosphere, SkyGradient, SkyModel, Sun, Sunlight, Terrain, TerrainMaterial, TimeOfDay, WorldOrigin,
+        Atmosphere, SkyGradient, SkyModel, Stamp, StampPlace, Sun, Sunlight, Terrain, TerrainMaterial, TimeOfDay,
+        WorldOrigin,
     };
     pub use crate::{HorizonPlugins, HorizonSystems};
     pub use horizon_field::{Field, Place};
@@ -80,7 +83,7 @@ pub enum HorizonSystems {
     Load,
     /// The world's origin follows a floating origin, where there is one. In `PostUpdate`.
     Origin,
-    /// Changed terrain and air are checked and compiled. In `PostUpdate`.
+    /// Changed terrain, stamps and air are checked and compiled. In `PostUpdate`; stamps after transforms were propagated.
     Compile,
 }
 
@@ -91,13 +94,19 @@ impl Plugin for HorizonWorldPlugin {
     fn build(&self, app: &mut App) {
         app.init_resource::<world::WorldOrigin>()
             .register_type::<world::Terrain>()
+            .register_type::<world::Stamp>()
             .register_type::<world::Atmosphere>()
             .add_message::<world::TerrainRejected>()
+            .add_message::<world::StampRejected>()
+            .add_message::<world::GroundChanged>()
             .register_type::<world::TimeOfDay>()
             .add_message::<world::AtmosphereRejected>()
             .add_systems(
                 PostUpdate,
-                (world::compile_terrain, (world::brighten, world::compile_atmospheres).chain())
+                (
+                    (world::compile_terrain, world::compile_stamps.after(TransformSystems::Propagate)).chain(),
+                    (world::brighten, world::compile_atmospheres).chain(),
+                )
                     .in_set(HorizonSystems::Compile),
             )
             .add_systems(Update, world::turn_suns.run_if(resource_exists::<Time>))

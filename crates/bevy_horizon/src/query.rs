@@ -2,14 +2,13 @@
 
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
-use horizon_field::field::Anchors;
-use horizon_field::march::{Anchored, Cast, Ray};
-use horizon_field::{CELL, Compiled, Place};
+use horizon_field::CELL;
+use horizon_field::march::{Anchored, Cast, Ray, Surface};
 
-use crate::world::{CompiledTerrain, WorldOrigin};
+use crate::world::{CompiledStamps, CompiledTerrain, WorldOrigin};
 
 /// Asks the ground: height, normal, slope, ray cast. Positions are Bevy's, in metres; the answer is that of the full
-/// field with all its octaves, exact to f64 wherever in the world [`WorldOrigin`] stands.
+/// field with all its octaves and [`Stamp`](crate::world::Stamp)s, exact to f64 wherever in the world [`WorldOrigin`] stands.
 ///
 /// ```
 /// # use bevy::prelude::*;
@@ -27,7 +26,8 @@ use crate::world::{CompiledTerrain, WorldOrigin};
 /// [`HorizonQuery::ground`] for one of them.
 #[derive(SystemParam)]
 pub struct HorizonQuery<'w, 's> {
-    terrains: Query<'w, 's, (Entity, &'static CompiledTerrain, &'static GlobalTransform)>,
+    terrains:
+        Query<'w, 's, (Entity, &'static CompiledTerrain, Option<&'static CompiledStamps>, &'static GlobalTransform)>,
     origin: Res<'w, WorldOrigin>,
 }
 
@@ -47,9 +47,7 @@ pub struct GroundHit {
 /// One terrain, anchored at the [`WorldOrigin`]: for questions by the thousand.
 pub struct Ground<'a> {
     entity: Entity,
-    compiled: &'a Compiled<2>,
-    anchors: Anchors<2>,
-    anchor: Place,
+    surface: Anchored<'a>,
     /// Of the terrain, in Bevy's coordinates.
     translation: [f64; 3],
     /// Height of Bevy's y = 0 over the field's.
@@ -59,21 +57,18 @@ pub struct Ground<'a> {
 impl HorizonQuery<'_, '_> {
     /// The terrain of an entity, or the first one.
     pub fn ground(&self, entity: Option<Entity>) -> Option<Ground<'_>> {
-        let (entity, compiled, transform) = match entity {
+        let (entity, compiled, stamps, transform) = match entity {
             Some(entity) => self.terrains.get(entity).ok()?,
             None => self.terrains.iter().next()?,
         };
         let translation = transform.translation().to_array().map(f64::from);
         let anchor = self.origin.0;
-        let compiled = compiled.height();
-        Some(Ground {
-            entity,
-            compiled,
-            anchors: compiled.anchor(&anchor),
-            datum: anchor.cell[1] as f64 * CELL + anchor.offset[1] - translation[1],
-            anchor,
-            translation,
-        })
+        let surface = match stamps {
+            Some(stamps) => Anchored::stamped(compiled.height(), &stamps.0, &anchor),
+            None => Anchored::new(compiled.height(), &anchor),
+        };
+        let datum = anchor.cell[1] as f64 * CELL + anchor.offset[1] - translation[1];
+        Some(Ground { entity, surface, translation, datum })
     }
 
     /// The ground's height under or over a position, in Bevy's coordinates; `None` without a terrain.
@@ -116,36 +111,40 @@ impl Ground<'_> {
 
     /// The ground's height at a position, in Bevy's coordinates.
     pub fn height(&self, position: Vec3) -> f32 {
-        (self.compiled.value_f64(&self.anchors, self.local(position), 0.0) - self.datum) as f32
+        (self.surface.value(self.local(position)) - self.datum) as f32
     }
 
     /// The ground's heights at many positions, in Bevy's coordinates: those of [`Ground::height`], several times as fast.
     pub fn heights(&self, positions: &[Vec3]) -> Vec<f32> {
         let q: Vec<_> = positions.iter().map(|p| self.local(*p)).collect();
         let mut values = vec![0.0; q.len()];
-        self.compiled.values_f64(&self.anchors, &q, 0.0, &mut values);
+        self.surface.values(&q, &mut values);
         values.into_iter().map(|v| (v - self.datum) as f32).collect()
     }
 
     /// The ground's unit normal at a position.
     pub fn normal(&self, position: Vec3) -> Vec3 {
-        let [x, z] = self.compiled.jet_f64(&self.anchors, self.local(position), 0.0).g;
+        let [x, z] = self.surface.jet(self.local(position)).g;
         Vec3::new(-x as f32, 1.0, -z as f32).normalize()
     }
 
     /// The ground's slope at a position, as the tangent of its angle.
     pub fn slope(&self, position: Vec3) -> f32 {
-        let [x, z] = self.compiled.jet_f64(&self.anchors, self.local(position), 0.0).g;
+        let [x, z] = self.surface.jet(self.local(position)).g;
         x.hypot(z) as f32
+    }
+
+    /// How far plants are kept away from a position, from 0 (not at all) to 1, by stamps of [`Mode::KeepTrees`](horizon_field::stamp::Mode).
+    pub fn clearing(&self, position: Vec3) -> f32 {
+        self.surface.clearing(self.local(position)) as f32
     }
 
     /// As [`HorizonQuery::ray_cast`].
     pub fn ray_cast(&self, origin: Vec3, direction: Dir3, max_distance: f32) -> Option<GroundHit> {
         let [x, z] = self.local(origin);
         let ray = Ray::new([x, f64::from(origin.y) + self.datum, z], direction.to_array().map(f64::from)).ok()?;
-        let surface = Anchored::new(self.compiled, &self.anchor);
         let max_distance = f64::from(max_distance);
-        match surface.cast(&ray, max_distance) {
+        match self.surface.cast(&ray, max_distance) {
             Cast::Hit(hit) => Some(GroundHit {
                 entity: self.entity,
                 distance: hit.t as f32,

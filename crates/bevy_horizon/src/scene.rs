@@ -10,12 +10,14 @@ use horizon_field::FieldError;
 use horizon_field::field::HeightImage;
 use horizon_field::field::check::MAX_DEPTH;
 use horizon_field::material::MaterialError;
+use horizon_field::stamp::{Placed, StampError};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::HorizonSystems;
 use crate::world::{
-    Atmosphere, CompiledTerrain, ParamError, Sun, Terrain, TerrainError, check_atmosphere, check_params,
+    Atmosphere, CompiledTerrain, ParamError, Stamp, StampPlace, Sun, Terrain, TerrainError, check_atmosphere,
+    check_params,
 };
 #[cfg(feature = "render")]
 use crate::world::{SkyModel, Sunlight, illuminance};
@@ -38,6 +40,9 @@ pub struct WorldFile {
     /// The sun. Default: none, the game's own lights are used.
     #[serde(default)]
     pub sun: Option<Sun>,
+    /// Local edits of the ground. Default: none.
+    #[serde(default)]
+    pub stamps: Vec<Placed>,
     /// A good place to look from.
     #[serde(default)]
     pub view: Viewpoint,
@@ -151,6 +156,9 @@ impl WorldFile {
         if let Some(sun) = &self.sun {
             check_params("sun", sun)?;
         }
+        for (i, stamp) in self.stamps.iter().enumerate() {
+            stamp.check(&format!("stamps[{i}]"))?;
+        }
         Ok(())
     }
 }
@@ -170,6 +178,7 @@ fn line_of(text: &str, error: &TerrainError) -> Option<usize> {
         TerrainError::Param(ParamError { field, value, .. }) => (field.as_str(), Some(*value)),
         TerrainError::Material(MaterialError::TooManyLayers { .. }) => ("layers", None),
         TerrainError::Field(error)
+        | TerrainError::Stamp(StampError::Param(error))
         | TerrainError::Material(MaterialError::Value(error) | MaterialError::Mask { source: error, .. }) => {
             match error {
                 FieldError::OutOfRange { path, value, .. } | FieldError::NotFinite { path, value } => {
@@ -240,7 +249,7 @@ impl AssetLoader for WorldLoader {
     }
 }
 
-/// Put it on an entity, and the file's terrain and air appear on it, its sun as a child. When the file changes, they do.
+/// Put it on an entity, and the file's terrain and air appear on it, its sun and its stamps as children. When the file changes, they do.
 /// A file with a sun also sets Bevy's `GlobalAmbientLight`: to the sky's light, or without air that makes it, to the sun's `ambient`.
 #[derive(Component, Clone, Debug, Default, Reflect)]
 #[reflect(Component, Default, Clone)]
@@ -252,6 +261,11 @@ pub struct HorizonWorld(pub Handle<WorldFile>);
 #[derive(Component, Clone, Copy, Debug, Default, Reflect)]
 #[reflect(Component, Default, Clone)]
 pub struct WorldSun;
+
+/// A stamp that a world file brought, under its [`HorizonWorld`].
+#[derive(Component, Clone, Copy, Debug, Default, Reflect)]
+#[reflect(Component, Default, Clone)]
+pub struct WorldStamp;
 
 /// A world file was put into components.
 #[derive(Message, Clone, Copy, Debug, PartialEq, Eq)]
@@ -288,7 +302,7 @@ fn apply_worlds(
     mut events: MessageReader<AssetEvent<WorldFile>>,
     files: Res<Assets<WorldFile>>,
     worlds: Query<(Entity, Ref<HorizonWorld>, Option<&Terrain>, Option<&Children>)>,
-    suns: Query<(), With<WorldSun>>,
+    brought: Query<(), Or<(With<WorldSun>, With<WorldStamp>)>>,
     mut loaded: MessageWriter<WorldLoaded>,
 ) {
     let changed: Vec<_> = events
@@ -316,8 +330,12 @@ fn apply_worlds(
             None => entity.remove::<Atmosphere>(),
         };
         loaded.write(WorldLoaded { entity: owner });
-        for child in children.into_iter().flatten().filter(|child| suns.contains(**child)) {
+        for child in children.into_iter().flatten().filter(|child| brought.contains(**child)) {
             commands.entity(*child).despawn();
+        }
+        for Placed { place, heading, edit } in &file.stamps {
+            let at = StampPlace { place: *place, heading: *heading };
+            commands.spawn((WorldStamp, Stamp(edit.clone()), at, ChildOf(owner)));
         }
         #[cfg(feature = "render")]
         if let Some(sun) = &file.sun {

@@ -14,9 +14,11 @@ pub mod metrics;
 pub mod noise;
 pub mod place;
 pub mod real;
+pub mod stamp;
 pub mod truth;
 
 pub use field::{Bound, Compiled, Field, FieldError};
 pub use lattice::{LatticePoint, Layer};
 pub use place::{CELL, Place};
 pub use real::{Jet, Real};
+pub use stamp::Stamps;

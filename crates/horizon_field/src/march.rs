@@ -17,6 +17,8 @@ mod field_tests;
 #[cfg(test)]
 pub(crate) mod fixtures;
 #[cfg(test)]
+mod stamp_tests;
+#[cfg(test)]
 mod tests;
 
 pub use ray::{Ray, RayError};

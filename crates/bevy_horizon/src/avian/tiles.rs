@@ -3,12 +3,13 @@
 use avian3d::prelude::*;
 use bevy::platform::collections::HashMap;
 use bevy::prelude::*;
+use horizon_field::stamp::Area;
 use horizon_field::{CELL, Place};
 
 use super::heights::ground_collider;
 use super::settings::TileSettings;
 use crate::query::HorizonQuery;
-use crate::world::{CompiledTerrain, WorldOrigin};
+use crate::world::{CompiledTerrain, GroundChanged, WorldOrigin};
 
 /// A piece of ground as a static body. Who despawns one that is still needed gets a new one, with the heights of then.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
@@ -137,6 +138,7 @@ pub(super) fn make_tiles(
     mut good: Local<TileSettings>,
     terrains: Terrains,
     world: HorizonQuery,
+    mut changed: MessageReader<GroundChanged>,
     origin: Res<WorldOrigin>,
     tiles: Query<(Entity, &GroundTile)>,
     bodies: Bodies,
@@ -149,6 +151,10 @@ pub(super) fn make_tiles(
     for (entity, tile) in &tiles {
         of_terrain.entry(tile.terrain).or_default().insert(tile.index, entity);
     }
+    let mut stamped: HashMap<Entity, Vec<Area>> = HashMap::default();
+    for change in changed.read() {
+        stamped.entry(change.terrain).or_default().extend(&change.areas);
+    }
     for (terrain, compiled, transform, friction, restitution, layers) in &terrains {
         let mut there = of_terrain.remove(&terrain).unwrap_or_default();
         if relaid || compiled.is_changed() {
@@ -156,6 +162,24 @@ pub(super) fn make_tiles(
                 wake(&bodies, &mut commands);
             }
             there.drain().for_each(|(_, tile)| commands.entity(tile).despawn());
+        }
+        if let Some(areas) = stamped.get(&terrain) {
+            let half = 0.5 * f64::from(good.side);
+            let meets = |entity: Entity| {
+                let centre = tiles.get(entity).map(|(_, tile)| tile.centre);
+                centre.is_ok_and(|centre| areas.iter().any(|area| area.meets(&centre, half)))
+            };
+            let before = there.len();
+            there.retain(|_, tile| {
+                let stays = !meets(*tile);
+                if !stays {
+                    commands.entity(*tile).despawn();
+                }
+                stays
+            });
+            if there.len() < before {
+                wake(&bodies, &mut commands);
+            }
         }
         let Some(ground) = world.ground(Some(terrain)) else { continue };
         let translation = transform.translation();

@@ -10,14 +10,16 @@ use bevy::prelude::*;
 use bevy::render::Extract;
 use bevy::render::sync_component::SyncComponent;
 use bevy::render::sync_world::RenderEntity;
-use horizon_field::Place;
+use horizon_field::{Place, Stamps};
 
 use super::air::ViewAir;
 use super::kernel::TerrainKernel;
 use super::passes::{ViewClearance, ViewGeometry, ViewPasses, ViewShade};
 use super::view::{ViewBefore, ViewGround};
 use crate::camera::HorizonCamera;
-use crate::world::{Atmosphere, CompiledAtmosphere, CompiledTerrain, Sunlight, TerrainFields, WorldOrigin};
+use crate::world::{
+    Atmosphere, CompiledAtmosphere, CompiledStamps, CompiledTerrain, Sunlight, TerrainFields, WorldOrigin,
+};
 
 /// The worlds, as they stand in this frame.
 #[derive(Resource, Default)]
@@ -58,6 +60,7 @@ pub struct ExtractedAtmosphere {
 pub struct ExtractedTerrain {
     pub entity: Entity,
     pub(crate) fields: Arc<TerrainFields>,
+    pub(crate) stamps: Arc<Stamps>,
     pub kernel: TerrainKernel,
     pub translation: Vec3,
     pub layers: RenderLayers,
@@ -107,6 +110,7 @@ type Terrains<'w, 's> = Query<
     (
         Entity,
         &'static CompiledTerrain,
+        Option<&'static CompiledStamps>,
         &'static TerrainKernel,
         &'static GlobalTransform,
         &'static InheritedVisibility,
@@ -124,11 +128,12 @@ pub fn extract_world(
     world.origin = origin.0;
     world.settings = settings.clone();
     world.terrains.clear();
-    for (entity, compiled, kernel, transform, visibility, layers) in &terrains {
+    for (entity, compiled, stamps, kernel, transform, visibility, layers) in &terrains {
         if visibility.get() {
             world.terrains.push(ExtractedTerrain {
                 entity,
                 fields: compiled.0.clone(),
+                stamps: stamps.map(|stamps| stamps.0.clone()).unwrap_or_default(),
                 kernel: kernel.clone(),
                 translation: transform.translation(),
                 layers: layers.cloned().unwrap_or_default(),

@@ -6,6 +6,7 @@ use std::marker::PhantomData;
 use bevy::asset::uuid::Uuid;
 use bevy::asset::{Assets, Handle};
 use bevy::shader::Shader;
+use horizon_field::stamp;
 use horizon_light::models::{gradient, shaders as light};
 use horizon_light::sun;
 
@@ -179,9 +180,9 @@ pub fn add_shaders(shaders: &mut Assets<Shader>) {
     }
 }
 
-/// The fill pass behind the kernel of a terrain's height and material.
+/// The fill pass behind the kernel of a terrain's height and material, and the stamps.
 pub fn fill_source(kernel: &str) -> String {
-    [kernel, include_str!("cache/fill.wgsl")].join("\n")
+    [kernel, stamp::WGSL, include_str!("cache/fill.wgsl")].join("\n")
 }
 
 fn present(ldr: bool) -> &'static str {

@@ -11,11 +11,11 @@ use bevy::render::renderer::RenderDevice;
 use bevy::render::sync_world::RenderEntity;
 use bevy::tasks::AsyncComputeTaskPool;
 use horizon_field::march::{Anchored, Cast, Ray};
-use horizon_field::{CELL, Place};
+use horizon_field::{CELL, Place, Stamps};
 
 use super::passes::ViewTruths;
 use crate::camera::{DebugView, HorizonCamera};
-use crate::world::{CompiledTerrain, TerrainFields, WorldOrigin};
+use crate::world::{CompiledStamps, CompiledTerrain, TerrainFields, WorldOrigin};
 
 /// What a truth is the truth of.
 #[derive(Clone)]
@@ -27,6 +27,7 @@ struct Scene {
     origin: Place,
     terrain: Vec3,
     fields: Arc<TerrainFields>,
+    stamps: Option<Arc<Stamps>>,
 }
 
 /// A camera's truth, as far as it is known.
@@ -74,12 +75,12 @@ type Cameras<'w, 's> = Query<
 pub fn seek_truths(
     mut commands: Commands,
     cameras: Cameras,
-    terrains: Query<(&CompiledTerrain, &GlobalTransform), Without<HorizonCamera>>,
+    terrains: Query<(&CompiledTerrain, Option<&CompiledStamps>, &GlobalTransform), Without<HorizonCamera>>,
     origin: Res<WorldOrigin>,
 ) {
     for (entity, horizon, camera, projection, pose, truths) in cameras {
         let size = camera.physical_viewport_size().filter(|_| horizon.debug == DebugView::Error);
-        let (Some(size), Some((terrain, at))) = (size, terrains.iter().next()) else {
+        let (Some(size), Some((terrain, stamps, at))) = (size, terrains.iter().next()) else {
             if truths.is_some() {
                 commands.entity(entity).remove::<Truths>();
             }
@@ -93,6 +94,7 @@ pub fn seek_truths(
             origin: origin.0,
             terrain: at.translation(),
             fields: terrain.0.clone(),
+            stamps: stamps.map(|stamps| stamps.0.clone()),
         };
         match truths {
             Some(mut truths) if truths.scene.is(&scene) => {
@@ -113,7 +115,10 @@ fn start(scene: Scene) -> Arc<Casting> {
     let casting = Arc::new(Casting { known: Mutex::new(known), dropped: AtomicBool::new(false) });
     let shared = casting.clone();
     let task = AsyncComputeTaskPool::get().spawn(async move {
-        let surface = Anchored::new(&scene.fields.height, &scene.origin);
+        let surface = match &scene.stamps {
+            Some(stamps) => Anchored::stamped(&scene.fields.height, stamps, &scene.origin),
+            None => Anchored::new(&scene.fields.height, &scene.origin),
+        };
         for y in 0..scene.size.y {
             if shared.dropped.load(Ordering::Relaxed) {
                 return;
@@ -131,7 +136,8 @@ fn start(scene: Scene) -> Arc<Casting> {
 impl Scene {
     fn is(&self, other: &Self) -> bool {
         let view = |s: &Self| (s.pose, s.clip_from_view, s.size, s.far, s.origin, s.terrain);
-        view(self) == view(other) && Arc::ptr_eq(&self.fields, &other.fields)
+        let stamps = |s: &Self| s.stamps.as_ref().map(Arc::as_ptr);
+        view(self) == view(other) && Arc::ptr_eq(&self.fields, &other.fields) && stamps(self) == stamps(other)
     }
 
     /// The distance to the ground along a pixel's ray.

@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 use horizon_field::material::{CompiledMaterial, MaterialError};
+use horizon_field::stamp::StampError;
 use horizon_field::{Compiled, FieldError};
 use thiserror::Error;
 
-use super::{ParamError, Terrain};
+use super::{CompiledStamps, ParamError, Terrain};
 
 /// What [`Terrain`] became: the compiled height field and the compiled material. Shared with queries and renderer.
 /// After a bad edit the last good one stays.
@@ -56,6 +57,9 @@ pub enum TerrainError {
     /// The material makes no sense.
     #[error(transparent)]
     Material(#[from] MaterialError),
+    /// A stamp makes no sense.
+    #[error(transparent)]
+    Stamp(#[from] StampError),
 }
 
 /// A terrain was rejected; what was there before stays.
@@ -89,6 +93,6 @@ pub(crate) fn compile_terrain(
 /// Ground that is no more answers no questions.
 pub(crate) fn forget_terrain(removed: On<Remove, Terrain>, mut commands: Commands) {
     if let Ok(mut entity) = commands.get_entity(removed.entity) {
-        entity.try_remove::<CompiledTerrain>();
+        entity.try_remove::<(CompiledTerrain, CompiledStamps)>();
     }
 }

@@ -7,6 +7,7 @@ mod origin;
 mod param;
 #[cfg(feature = "render")]
 mod shine;
+mod stamp;
 mod sun;
 mod sunlight;
 mod terrain;
@@ -29,6 +30,8 @@ pub use param::{ParamError, check_params};
 pub use shine::illuminance;
 #[cfg(feature = "render")]
 pub(crate) use shine::{altitude, shine};
+pub(crate) use stamp::compile_stamps;
+pub use stamp::{CompiledStamps, GroundChanged, Stamp, StampPlace, StampRejected};
 pub use sun::Sun;
 pub(crate) use sunlight::turn_suns;
 pub use sunlight::{Sunlight, TimeOfDay, towards_sun};

@@ -88,7 +88,7 @@ pub(crate) fn check_numbers(node: &dyn Params, path: &dyn Fn() -> String) -> Res
     found
 }
 
-fn check_number(
+pub(crate) fn check_number(
     name: &str,
     &Param { min, max, unit, .. }: &Param,
     value: f64,

@@ -24,7 +24,7 @@ pub mod spread;
 mod batch;
 mod curve;
 mod layers;
-mod model;
+pub(crate) mod model;
 mod query;
 mod ranges;
 mod sample;

@@ -12,7 +12,7 @@ const ROUNDING: f64 = 1e-15;
 
 /// A bound, with the box that it holds for.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Model<const D: usize> {
+pub(crate) struct Model<const D: usize> {
     pub bound: Bound<D>,
     half: [f64; D],
 }
@@ -20,7 +20,7 @@ pub(super) struct Model<const D: usize> {
 impl<const D: usize> Model<D> {
     /// Brings what is known in agreement. A linear model whose rest alone is as large as the interval is worth less than
     /// the interval's middle; but else it is worth more, however steep, to whoever knows where in the box he is.
-    pub(super) fn new(bound: Bound<D>, half: [f64; D]) -> Self {
+    pub(crate) fn new(bound: Bound<D>, half: [f64; D]) -> Self {
         let mut model = Self { bound, half };
         let spread = model.spread();
         let Bound { v, g, rest, low, high, .. } = &mut model.bound;
@@ -62,9 +62,17 @@ impl<const D: usize> Model<D> {
     }
 
     /// The same function, of which it is also known that it lies in an interval.
-    pub(super) fn within(self, low: f64, high: f64) -> Self {
+    pub(crate) fn within(self, low: f64, high: f64) -> Self {
         let bound = Bound { low: self.bound.low.max(low), high: self.bound.high.min(high), ..self.bound };
         Self::new(bound, self.half)
+    }
+
+    /// 1 / f, of a function that is positive on all of the box, as the interval and the linear model both say.
+    pub(crate) fn reciprocal(self) -> Self {
+        let [low, high] = self.reach();
+        let (at, [least, most]) = (self.bound.v, [low.max(f64::MIN_POSITIVE), high].map(|u| 1.0 / u));
+        let slope = [-least * least, -most * most];
+        self.composed([1.0 / at, -1.0 / (at * at)], [most, least], slope, 2.0 * least * least * least)
     }
 
     /// The largest extents of both boxes: a constant has none.

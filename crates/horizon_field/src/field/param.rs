@@ -39,6 +39,12 @@ impl<const N: usize> Numbers for [f64; N] {
     }
 }
 
+impl Numbers for Vec<[f64; 3]> {
+    fn numbers(&self, each: &mut dyn FnMut(f64)) {
+        self.iter().flatten().for_each(|x| each(*x));
+    }
+}
+
 impl<T: Numbers> Numbers for Option<T> {
     fn numbers(&self, each: &mut dyn FnMut(f64)) {
         if let Some(inner) = self {

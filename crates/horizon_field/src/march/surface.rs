@@ -4,6 +4,7 @@ use super::{Cast, Counts, Ray, Tolerance};
 use crate::field::{Anchors, Bound, Compiled};
 use crate::place::Place;
 use crate::real::Jet;
+use crate::stamp::{Stamps, StampsAt};
 use crate::truth::{TruthCamera, TruthPicture};
 
 /// A height field y = h(x, z) that can bound itself over a box.
@@ -27,17 +28,48 @@ pub(super) fn normal(g: [f64; 2]) -> [f64; 3] {
     [-g[0] / length, 1.0 / length, -g[1] / length]
 }
 
-/// The full field, all octaves, seen from a place of the world: x and z are metres from there, y is the height in
+/// The full ground, all octaves and stamps, seen from a place of the world: x and z are metres from there, y is the height in
 /// metres above the world's zero.
 pub struct Anchored<'a> {
     compiled: &'a Compiled<2>,
     anchors: Anchors<2>,
+    stamps: Option<StampsAt<'a>>,
 }
 
 impl<'a> Anchored<'a> {
-    /// The field around `place`.
+    /// The field around `place`, without stamps.
     pub fn new(compiled: &'a Compiled<2>, place: &Place) -> Self {
-        Self { compiled, anchors: compiled.anchor(place) }
+        Self { compiled, anchors: compiled.anchor(place), stamps: None }
+    }
+
+    /// The field around `place`, with stamps on it.
+    pub fn stamped(compiled: &'a Compiled<2>, stamps: &'a Stamps, place: &Place) -> Self {
+        Self { stamps: Some(stamps.at(place)), ..Self::new(compiled, place) }
+    }
+
+    /// The height at `q`, in metres.
+    pub fn value(&self, q: [f64; 2]) -> f64 {
+        let height = self.compiled.value_f64(&self.anchors, q, 0.0);
+        match &self.stamps {
+            // What is stamped needs the gradient only for its own.
+            Some(stamps) => stamps.jet(q, 0.0, Jet::constant(height)).v,
+            None => height,
+        }
+    }
+
+    /// The heights at many points: those of [`Anchored::value`], several times as fast. Panics where `out` does not take as many.
+    pub fn values(&self, q: &[[f64; 2]], out: &mut [f64]) {
+        self.compiled.values_f64(&self.anchors, q, 0.0, out);
+        if let Some(stamps) = &self.stamps {
+            for (q, out) in q.iter().zip(out) {
+                *out = stamps.jet(*q, 0.0, Jet::constant(*out)).v;
+            }
+        }
+    }
+
+    /// How far plants are kept away at `q`, from 0 (not at all) to 1.
+    pub fn clearing(&self, q: [f64; 2]) -> f64 {
+        self.stamps.as_ref().map_or(0.0, |stamps| stamps.clearing(q))
     }
 
     /// [`cast`](super::cast) with the usual tolerance, compiled in this crate.
@@ -53,14 +85,17 @@ impl<'a> Anchored<'a> {
 
 impl Surface for Anchored<'_> {
     fn jet(&self, q: [f64; 2]) -> Jet<f64, 2> {
-        self.compiled.jet(&self.anchors, q, 0.0)
+        let ground = self.compiled.jet(&self.anchors, q, 0.0);
+        self.stamps.as_ref().map_or(ground, |stamps| stamps.jet(q, 0.0, ground))
     }
 
     fn bound(&self, centre: [f64; 2], half: [f64; 2]) -> Bound<2> {
-        self.compiled.bound(&self.anchors, centre, half)
+        let ground = self.compiled.bound(&self.anchors, centre, half);
+        self.stamps.as_ref().map_or(ground, |stamps| stamps.bound(centre, half, ground))
     }
 
     fn range(&self) -> (f64, f64) {
-        self.compiled.range()
+        let range = self.compiled.range();
+        self.stamps.as_ref().map_or(range, |stamps| stamps.stamps().range(range))
     }
 }

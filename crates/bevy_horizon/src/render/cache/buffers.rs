@@ -8,7 +8,9 @@ use bevy::render::render_resource::{
 };
 use bevy::render::renderer::{RenderContext, RenderDevice, RenderQueue};
 use bytemuck::{Pod, Zeroable};
+use horizon_field::Stamps;
 use horizon_field::field::Contents;
+use horizon_field::stamp::PART_BYTES;
 
 use super::super::kernel::fields_of;
 use super::super::uniforms::{ClipmapUniform, MaterialUniform, SunUniform};
@@ -93,7 +95,8 @@ struct FillJob {
     tile: u32,
     anchor: u32,
     texel: f32,
-    padding: u32,
+    stamp: u32,
+    stamps: u32,
 }
 
 /// `TileJob` of `pyramid.wgsl` and `light.wgsl`.
@@ -108,7 +111,7 @@ struct TileJob {
 /// The compute work of one frame.
 #[derive(Default)]
 pub struct FrameJobs {
-    fill: Option<(u32, [Buffer; 3], [Option<BindGroup>; 2])>,
+    fill: Option<(u32, [Buffer; 4], [Option<BindGroup>; 2])>,
     pyramid: Option<(u32, Buffer, Option<BindGroup>)>,
     light: Option<(u32, [Buffer; 2], Option<BindGroup>)>,
 }
@@ -118,6 +121,7 @@ impl FrameJobs {
         work: &Work,
         clipmap: &Clipmap,
         fields: &TerrainFields,
+        stamps: &Stamps,
         sun: Option<SunUniform>,
         device: &RenderDevice,
     ) -> Self {
@@ -128,7 +132,7 @@ impl FrameJobs {
         };
         let mut jobs = Self::default();
         if !work.fill.is_empty() {
-            let mut anchors = Vec::new();
+            let (mut anchors, mut parts) = (Vec::new(), Vec::new());
             let mut fills = Vec::with_capacity(work.fill.len());
             let all = fields_of(fields);
             let stride = all.iter().map(|field| field.layer_count()).sum::<usize>() as u32;
@@ -137,18 +141,26 @@ impl FrameJobs {
                 for field in &all {
                     field.append_anchor_bytes(&field.anchor(&place), &mut anchors);
                 }
+                let texel = f64::from(tile.exponent).exp2();
+                let half = [0.5 * (TILE - 1) as f64 * texel; 2];
+                let stamp = (parts.len() / PART_BYTES) as u32;
+                // The cut-off is the shader's.
+                let count = stamps.at(&place).append_bytes(half, half, 0.75 * texel, &mut parts);
                 fills.push(FillJob {
                     tile: clipmap.stored(*tile),
                     anchor: i as u32 * stride,
-                    texel: (tile.exponent as f32).exp2(),
-                    padding: 0,
+                    texel: texel as f32,
+                    stamp,
+                    stamps: count,
                 });
             }
             anchors.resize(anchors.len().max(64), 0);
+            parts.resize(parts.len().max(PART_BYTES), 0);
             let buffers = [
                 storage("horizon_fill_anchors", &anchors),
                 storage("horizon_fill_jobs", bytemuck::cast_slice(&fills)),
                 uniform("horizon_material", &MaterialUniform::new(&fields.material), device),
+                storage("horizon_fill_stamps", &parts),
             ];
             jobs.fill = Some((fills.len() as u32, buffers, [None, None]));
         }
@@ -174,7 +186,7 @@ impl FrameJobs {
         device: &RenderDevice,
     ) {
         let Some(clipmap) = buffers.clipmap.binding() else { return };
-        if let Some((_, [anchors, jobs, material], groups)) = &mut self.fill {
+        if let Some((_, [anchors, jobs, material, stamps], groups)) = &mut self.fill {
             groups[0] = Some(device.create_bind_group(
                 "horizon_field",
                 &cache.get_bind_group_layout(&pipelines.field_layout),
@@ -193,6 +205,7 @@ impl FrameJobs {
                     material.as_entire_binding(),
                     buffers.heights.as_entire_binding(),
                     buffers.looks.as_entire_binding(),
+                    stamps.as_entire_binding(),
                 )),
             ));
         }

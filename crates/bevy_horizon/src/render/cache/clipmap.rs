@@ -4,6 +4,7 @@
 //! stored toroidally, so that a centre that moves needs only new strips. Tiles lie on a grid fixed to the world: the
 //! same tile is always computed in the same way, wherever the camera and Bevy's origin are.
 
+use horizon_field::stamp::Area;
 use horizon_field::{CELL, Place};
 
 /// Texels along a tile's side.
@@ -101,8 +102,10 @@ pub struct Clipmap {
     capacity: usize,
     /// Finest first.
     levels: Vec<Level>,
-    /// Light was made before all the ground that may shadow it was there: it is made again once it is.
+    /// Light was made before all the ground that may shadow it was there: it is made again once it is, everywhere or
+    /// in some areas.
     relight: bool,
+    shaded: Vec<Area>,
     /// The most tiles that were missing or out of date since all was done.
     backlog: usize,
 }
@@ -149,6 +152,27 @@ pub fn place_of(tile: Tile) -> Place {
     place
 }
 
+/// Where a level of `side` × `side` tiles stores a tile.
+fn stored_in_level(side: i64, index: [i64; 2]) -> usize {
+    let [x, z] = index.map(|i| i.rem_euclid(side) as usize);
+    z * side as usize + x
+}
+
+impl Level {
+    /// Whether a grid of this level's texels shows what changed in an area: as the fill pass has it.
+    fn shows(&self, area: &Area) -> bool {
+        area.narrow > 0.75 * f64::from(self.exponent).exp2()
+    }
+
+    /// The tiles that hold ground of an area.
+    fn tiles_of(&self, area: &Area) -> TileRect {
+        let last = area.place.translated([area.size[0], 0.0, area.size[1]]);
+        let [min, max] = [&area.place, &last].map(|corner| texel_of(corner, self.exponent).0);
+        let area = TileRect { min: min.map(|i| i.div_euclid(TILE)), max: max.map(|i| i.div_euclid(TILE) + 1) };
+        area.intersection(&self.valid)
+    }
+}
+
 impl Clipmap {
     /// An empty clipmap of `side` tiles along each side, an even number of at least 4, and at most `capacity` levels.
     pub fn new(side: u32, capacity: usize) -> Self {
@@ -158,6 +182,7 @@ impl Clipmap {
             capacity: capacity.clamp(1, MAX_LEVELS),
             levels: Vec::new(),
             relight: false,
+            shaded: Vec::new(),
             backlog: 0,
         }
     }
@@ -183,8 +208,7 @@ impl Clipmap {
     }
 
     fn stored_in_level(&self, index: [i64; 2]) -> usize {
-        let [x, z] = index.map(|i| i.rem_euclid(self.side) as usize);
-        z * self.side as usize + x
+        stored_in_level(self.side, index)
     }
 
     /// Moves the centre, and chooses the levels from `finest` to `coarsest` (exponents of their texels). What of a
@@ -226,6 +250,24 @@ impl Clipmap {
         for level in &mut self.levels {
             level.stale.fill(true);
         }
+        self.relight = true;
+    }
+
+    /// The ground of an area is out of date, and with it the light from there to as far as `shadow` metres along x and z. Grids
+    /// that are too coarse to show what changed stay as they are.
+    pub fn invalidate_area(&mut self, area: &Area, shadow: [f64; 2]) {
+        for level in self.levels.iter_mut().filter(|level| level.shows(area)) {
+            for index in level.tiles_of(area).tiles() {
+                level.stale[stored_in_level(self.side, index)] = true;
+            }
+        }
+        let low = shadow.map(|by| by.min(0.0));
+        let size = [0, 1].map(|i| area.size[i] + shadow[i].abs());
+        self.shaded.push(Area { place: area.place.translated([low[0], 0.0, low[1]]), size, ..*area });
+    }
+
+    /// The light has changed, and is made anew once all the ground is there.
+    pub fn relight(&mut self) {
         self.relight = true;
     }
 
@@ -277,6 +319,15 @@ impl Clipmap {
         if self.relight && done == total {
             self.relight = false;
             self.invalidate_light();
+        }
+        if done == total {
+            for area in std::mem::take(&mut self.shaded) {
+                for level in self.levels.iter_mut().filter(|level| level.shows(&area)) {
+                    for index in level.tiles_of(&area).tiles() {
+                        level.dim[stored_in_level(self.side, index)] = true;
+                    }
+                }
+            }
         }
         // What never was lit first: it holds the light of another place.
         let drawn = self.drawn();

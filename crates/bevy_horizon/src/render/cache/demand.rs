@@ -3,12 +3,12 @@
 use bevy::render::camera::ExtractedCamera;
 use bevy::render::renderer::RenderDevice;
 use bevy::render::view::ExtractedView;
+use horizon_field::march::Anchored;
 use horizon_field::{CELL, Place};
 
-use super::super::extract::ExtractedHorizonCamera;
+use super::super::extract::{ExtractedHorizonCamera, ExtractedTerrain};
 use super::buffers::{LOOK_BYTES, TILE_BYTES};
 use super::clipmap::{COARSEST, FINEST, MAX_LEVELS, TILE};
-use crate::world::TerrainFields;
 
 /// A clipmap for a view.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,7 +38,7 @@ impl Demand {
         view: &ExtractedView,
         extracted: &ExtractedCamera,
         eye: &Place,
-        fields: &TerrainFields,
+        terrain: &ExtractedTerrain,
         share: u32,
         device: &RenderDevice,
     ) -> Self {
@@ -51,7 +51,9 @@ impl Demand {
         let texels = 2.0 * (std::f32::consts::SQRT_2 / (0.8 * nominal * budget) + 34.0);
         let mut side = ((texels / (2 * TILE) as f32).ceil() as u32 * 2).max(4);
         // Below an eighth of the field's finest wave, a patch is as smooth as what it stands for; a colour needs a quarter.
-        let wave = (fields.height.finest_wavelength() / 8.0).min(fields.material.finest_wavelength() / 4.0);
+        let fields = &terrain.fields;
+        let wave = (fields.height.finest_wavelength().min(terrain.stamps.finest_wavelength()) / 8.0)
+            .min(fields.material.finest_wavelength() / 4.0);
         let detail = wave.log2().floor().clamp(FINEST.into(), COARSEST.into()) as i32;
         let far = camera.camera.far.clamp(1.0, 1e6);
         let binding = device.limits().max_storage_buffer_binding_size;
@@ -65,7 +67,7 @@ impl Demand {
             if affordable >= wanted || side <= 6 {
                 let capacity = wanted.min(affordable.max(1)) as usize;
                 let nearest =
-                    f64::from(pixel_size(view, height_px)) * 2.0 * f64::from(budget) * distance(view, eye, fields);
+                    f64::from(pixel_size(view, height_px)) * 2.0 * f64::from(budget) * distance(view, eye, terrain);
                 let finest = (nearest.log2().floor() as i32).clamp(detail, coarsest);
                 return Self { side, capacity, finest, coarsest };
             }
@@ -76,10 +78,10 @@ impl Demand {
 
 /// About how near the ground is, in metres: half the height above it, as cliffs beside the camera may be nearer than
 /// what lies below. An orthographic view's pixels are as large anywhere.
-fn distance(view: &ExtractedView, eye: &Place, fields: &TerrainFields) -> f64 {
+fn distance(view: &ExtractedView, eye: &Place, terrain: &ExtractedTerrain) -> f64 {
     if view.clip_from_view.w_axis.w == 1.0 {
         return 1.0;
     }
-    let ground = fields.height.value_f64(&fields.height.anchor(eye), [0.0, 0.0], 0.0);
+    let ground = Anchored::stamped(&terrain.fields.height, &terrain.stamps, eye).value([0.0, 0.0]);
     (0.5 * (eye.cell[1] as f64 * CELL + eye.offset[1] - ground).abs()).max(1.0)
 }

@@ -1,5 +1,5 @@
 // Fills tiles with the field: height, normal and material, once per texel. Follows the terrain's kernel, which declares
-// height(), material_at() and material_packed().
+// height(), material_at() and material_packed(), and stamp.wgsl.
 
 struct Job {
     // The tile in the buffers, and its first anchor.
@@ -7,13 +7,20 @@ struct Job {
     anchor: u32,
     // Metres per texel.
     texel: f32,
-    padding: u32,
+    // The stamps that reach into the tile: the first of their parts, and how many.
+    stamp: u32,
+    stamps: u32,
 }
 
 @group(1) @binding(0) var<storage, read> jobs: array<Job>;
 @group(1) @binding(1) var<uniform> material: Material;
 @group(1) @binding(2) var<storage, read_write> heights: array<f32>;
 @group(1) @binding(3) var<storage, read_write> looks: array<u32>;
+@group(1) @binding(4) var<storage, read> stamp_parts: array<StampPart>;
+
+fn stamp_part(i: u32) -> StampPart {
+    return stamp_parts[i];
+}
 
 // A normal's x and z in 8 bits each. Rounded by lot, which is the same in every tile: smooth ground shows no steps.
 fn pack_normal(gradient: vec2<f32>, texel: vec2<u32>) -> u32 {
@@ -34,7 +41,7 @@ fn fill(@builtin(global_invocation_id) id: vec3<u32>, @builtin(workgroup_id) gro
     // An octave is whole down to waves of 1.5 texels, and gone at 0.75: texels lie still in the world, so that what little
     // aliases does not crawl, and thin ridges keep their height for longer.
     let cutoff = 0.75 * job.texel;
-    let ground = height(job.anchor, q, cutoff);
+    let ground = stamped(job.stamp, job.stamps, q, height(job.anchor, q, cutoff));
     let index = job.tile * 4096u + id.y * 64u + id.x;
     heights[index] = ground.x;
     let look = material_at(job.anchor, q, job.texel, cutoff, ground);

@@ -11,7 +11,9 @@ use bevy::render::camera::ExtractedCamera;
 use bevy::render::render_resource::PipelineCache;
 use bevy::render::renderer::{RenderContext, RenderDevice, RenderQueue};
 use bevy::render::view::ExtractedView;
-use horizon_field::Place;
+use horizon_field::march::{Anchored, Surface};
+use horizon_field::stamp::Area;
+use horizon_field::{Place, Stamps};
 
 pub(crate) use self::buffers::CacheBuffers;
 use self::buffers::FrameJobs;
@@ -54,6 +56,9 @@ impl Caches {
     }
 }
 
+/// Of more stamps that change at once, no shadow is followed: all is lit again.
+const MOST_SHADOWS: usize = 16;
+
 /// The ground around one or more cameras.
 pub(crate) struct Cache {
     terrain: Entity,
@@ -64,6 +69,7 @@ pub(crate) struct Cache {
     /// What the tiles are filled with, once the pipeline for it is ready.
     fields: Arc<TerrainFields>,
     structure: u64,
+    stamps: Arc<Stamps>,
     sun: Option<(Vec3, f32)>,
     pub buffers: CacheBuffers,
     pub drawn: Vec<DrawnLevel>,
@@ -120,7 +126,7 @@ pub(crate) fn prepare_caches(
         let terrain_at = terrain.map_or(DVec3::ZERO, |terrain| terrain.translation.as_dvec3());
         let eye = world.origin.translated((view.world_from_view.translation().as_dvec3() - terrain_at).to_array());
         let cache = terrain.filter(|_| camera.cached).map(|terrain| {
-            let demand = Demand::new(camera, view, extracted, &eye, &terrain.fields, share, &device);
+            let demand = Demand::new(camera, view, extracted, &eye, terrain, share, &device);
             let index = find_cache(caches, terrain, &eye, &demand).unwrap_or_else(|| {
                 caches.push(Cache::new(terrain, &demand, &device));
                 caches.len() - 1
@@ -189,6 +195,7 @@ impl Cache {
             range: [demand.finest, demand.coarsest],
             fields: terrain.fields.clone(),
             structure: terrain.kernel.structure,
+            stamps: terrain.stamps.clone(),
             sun: None,
             buffers: CacheBuffers::new(demand.side, demand.capacity, &terrain.fields, device),
             drawn: Vec::new(),
@@ -219,7 +226,7 @@ impl Cache {
 
     /// The lowest and the highest that the ground may be, in metres above the datum.
     pub fn heights(&self) -> [f32; 2] {
-        let (low, high) = self.fields.height.range();
+        let (low, high) = self.stamps.range(self.fields.height.range());
         [low as f32, high as f32]
     }
 
@@ -247,16 +254,59 @@ impl Cache {
             self.buffers.set_fields(&self.fields, device);
             self.clipmap.invalidate();
         }
+        if !Arc::ptr_eq(&self.stamps, &terrain.stamps) {
+            self.stamp(&terrain.stamps);
+        }
         if pipelines.ready(pipeline_cache, self.structure) {
             let sun = self.sun(world);
             let budget = world.settings.tiles_per_frame.max(1) as usize;
             let work = self.clipmap.work(budget, sun.is_some());
             self.filled += work.fill.len() as u64;
-            self.jobs = FrameJobs::new(&work, &self.clipmap, &self.fields, sun, device);
+            self.jobs = FrameJobs::new(&work, &self.clipmap, &self.fields, &self.stamps, sun, device);
         }
         self.drawn = self.clipmap.drawn();
         self.buffers.set_clipmap(&self.drawn, self.clipmap.side(), device, queue);
         self.jobs.bind(&self.buffers, pipelines, pipeline_cache, device);
+    }
+
+    /// The ground has other stamps: what they change is filled again, and lit as far as its shadow may reach.
+    fn stamp(&mut self, stamps: &Arc<Stamps>) {
+        let areas = self.stamps.changes(stamps);
+        let few = areas.len() <= MOST_SHADOWS;
+        for area in areas {
+            let shadow = self.sun.filter(|_| few).map_or([0.0; 2], |sun| self.shadow(sun, &area, stamps));
+            self.clipmap.invalidate_area(&area, shadow);
+        }
+        if !few {
+            self.clipmap.relight();
+        }
+        self.stamps = stamps.clone();
+    }
+
+    /// How far the shadow of an area may reach along x and z, in metres, with the stamps that it has and with those to come: to
+    /// where the ground is proven to rise over the lowest ray that grazes the area's highest point.
+    fn shadow(&self, (direction, radius): (Vec3, f32), area: &Area, stamps: &Stamps) -> [f64; 2] {
+        let grounds = [&*self.stamps, stamps].map(|stamps| Anchored::stamped(&self.fields.height, stamps, &area.place));
+        let half = area.size.map(|size| 0.5 * size);
+        let top = grounds.iter().map(|ground| ground.bound(half, half).high).fold(f64::NEG_INFINITY, f64::max);
+        let lowest = grounds.iter().map(|ground| ground.range().0).fold(f64::INFINITY, f64::min);
+        let sun = SunUniform::new(direction, radius, top as f32);
+        let away = [sun.towards.x, sun.towards.y].map(|towards| -f64::from(towards));
+        let fall = f64::from(sun.low).max(1e-3);
+        let mut reach = 0.0;
+        // Steps grow by a quarter: sixty of them are out of the world.
+        for _ in 0..60 {
+            let step = area.size[0].max(area.size[1]).max(0.25 * reach);
+            let centre = [0, 1].map(|i| half[i] + away[i] * (reach + 0.5 * step));
+            let extent = [0, 1].map(|i| half[i] + 0.5 * step * away[i].abs());
+            let low = grounds.iter().map(|ground| ground.bound(centre, extent).low).fold(f64::INFINITY, f64::min);
+            let ray = top - fall * reach;
+            if low > ray || lowest > ray {
+                break;
+            }
+            reach += step;
+        }
+        away.map(|away| away * reach)
     }
 
     /// The sun that casts shadows. It is followed in steps of a fifth of its radius, which no penumbra shows, and
@@ -275,7 +325,7 @@ impl Cache {
             self.clipmap.invalidate_light();
         }
         let (direction, radius) = self.sun?;
-        Some(SunUniform::new(direction, radius, self.fields.height.range().1 as f32))
+        Some(SunUniform::new(direction, radius, self.heights()[1]))
     }
 }
 

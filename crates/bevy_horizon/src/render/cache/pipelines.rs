@@ -42,7 +42,7 @@ impl Default for CachePipelines {
                 "horizon_fill",
                 &BindGroupLayoutEntries::sequential(
                     stage,
-                    (read(), uniform_buffer::<MaterialUniform>(false), write(), write()),
+                    (read(), uniform_buffer::<MaterialUniform>(false), write(), write(), read()),
                 ),
             ),
             pyramid_layout: BindGroupLayoutDescriptor::new(
