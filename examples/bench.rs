@@ -59,7 +59,7 @@ fn size(text: &str) -> Result<[u32; 2], String> {
 }
 
 /// The passes, by the names of their spans.
-const PASSES: [&str; 7] = [
+const PASSES: [&str; 9] = [
     "horizon_fill",
     "horizon_pyramid",
     "horizon_light",

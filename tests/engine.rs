@@ -170,6 +170,77 @@ fn several_cameras_and_viewports_each_show_the_world() {
 }
 
 #[test]
+fn four_cameras_stay_within_the_memory() {
+    let mut stage = Stage::new(640, 360);
+    stage.light();
+    stage.world().spawn((Terrain::default(), Atmosphere::default()));
+    let target = stage.off.target();
+    let quarter = |i: u32| Viewport {
+        physical_position: UVec2::new(320 * (i % 2), 180 * (i / 2)),
+        physical_size: UVec2::new(320, 180),
+        ..default()
+    };
+    // Far apart, so that none can share another's cache.
+    let look = |i: u32| {
+        let at = Vec3::new(40_000.0 * i as f32, 600.0, 0.0);
+        Transform::from_translation(at).looking_to(Vec3::new(0.0, -0.3, -1.0), Vec3::Y)
+    };
+    stage.look(look(0));
+    let camera = stage.camera;
+    stage.world().get_mut::<Camera>(camera).unwrap().viewport = Some(quarter(0));
+    for i in 1..4 {
+        stage.world().spawn((
+            Camera3d::default(),
+            target.clone(),
+            Camera { order: i as isize, clear_color: ClearColorConfig::None, viewport: Some(quarter(i)), ..default() },
+            bevy::camera::Hdr,
+            Msaa::Off,
+            HorizonCamera::default(),
+            look(i),
+        ));
+    }
+    stage.settle();
+    let used = own_bytes(&stage) as f64 / f64::from(1 << 20);
+    println!("four cameras: {used:.1} MiB");
+    assert!(used > 16.0 && used <= 128.0, "{used} MiB");
+}
+
+/// What Bevy can't have, or a device lacks, is said once, and everything goes on.
+#[test]
+fn impossible_cameras_are_survived() {
+    use bevy::core_pipeline::prepass::{DeferredPrepass, DepthPrepass};
+    let mut stage = Stage::new(96, 54);
+    stage.light();
+    let terrain = stage.world().spawn((Terrain::default(), Atmosphere::default())).id();
+    stage.look(Transform::from_xyz(0.0, 600.0, 0.0).looking_to(Vec3::new(0.0, -0.5, -1.0), Vec3::Y));
+    stage.settle();
+    let camera = stage.camera;
+    // Bevy turns multisampling off in the deferred route, with a warning.
+    stage.world().entity_mut(camera).insert((Msaa::Sample4, DepthPrepass, DeferredPrepass));
+    (0..6).for_each(|_| stage.off.update());
+    assert_eq!(stage.world().get::<Msaa>(camera), Some(&Msaa::Off));
+    let lit = |stage: &mut Stage| stage.off.screenshot().pixels().filter(|p| p[1] > 20).count();
+    assert!(lit(&mut stage) > 96 * 54 / 2);
+    // Back to the forward route, and out of use and in again.
+    stage.world().entity_mut(camera).remove::<(DepthPrepass, DeferredPrepass)>();
+    (0..3).for_each(|_| stage.off.update());
+    stage.world().entity_mut(camera).remove::<HorizonCamera>();
+    (0..3).for_each(|_| stage.off.update());
+    stage.world().entity_mut(camera).insert(HorizonCamera::default());
+    stage.world().entity_mut(terrain).remove::<Terrain>();
+    (0..3).for_each(|_| stage.off.update());
+    stage.world().entity_mut(terrain).insert(Terrain::default());
+    stage.settle();
+    // A target without a size, as a minimised window has it.
+    stage.world().entity_mut(camera).insert(bevy::camera::RenderTarget::None { size: UVec2::ZERO });
+    (0..3).for_each(|_| stage.off.update());
+    let target = stage.off.target();
+    stage.world().entity_mut(camera).insert(target);
+    stage.settle();
+    assert!(lit(&mut stage) > 96 * 54 / 2);
+}
+
+#[test]
 fn resizing_and_removal_in_use_are_survived() {
     let mut stage = Stage::new(64, 64);
     stage.light();

@@ -1,4 +1,5 @@
-//! One plane, as a mesh and as a field: under every light, and with every feature of a camera, they are the same picture.
+//! One plane, as a mesh and as a field: under every light, and with every feature of a camera that moves, they are the same
+//! picture.
 
 use bevy::anti_alias::taa::TemporalAntiAliasing;
 use bevy::camera::{Hdr, ScalingMode};
@@ -22,14 +23,16 @@ const SIZE: [u32; 2] = [192, 108];
 /// What a cache keeps exactly: the square of a multiple of 1/255, a multiple of 1/31, a multiple of 1/7.
 const ALBEDO: f32 = (140.0 / 255.0) * (140.0 / 255.0);
 const ROUGHNESS: f32 = 22.0 / 31.0;
+/// The smoothest that ground can be: what it mirrors is no lottery.
+const POLISHED: f32 = 3.0 / 31.0;
 const REFLECTANCE: f32 = 4.0 / 7.0;
 
 /// The plane as a field.
-fn field(height: f64) -> Terrain {
+fn field(height: f64, roughness: f32) -> Terrain {
     let surface = Surface {
         colour: [f64::from(ALBEDO); 3],
         second: None,
-        roughness: f64::from(ROUGHNESS),
+        roughness: f64::from(roughness),
         reflectance: f64::from(REFLECTANCE),
         ..default()
     };
@@ -37,11 +40,11 @@ fn field(height: f64) -> Terrain {
     Terrain { material, ..Terrain::new(Field::Constant(height)) }
 }
 
-fn mesh(world: &mut World) -> impl Bundle + use<> {
+fn mesh(world: &mut World, roughness: f32) -> impl Bundle + use<> {
     let mesh = world.resource_mut::<Assets<Mesh>>().add(Plane3d::default().mesh().size(2000.0, 2000.0));
     let material = world.resource_mut::<Assets<StandardMaterial>>().add(StandardMaterial {
         base_color: LinearRgba::rgb(ALBEDO, ALBEDO, ALBEDO).into(),
-        perceptual_roughness: ROUGHNESS,
+        perceptual_roughness: roughness,
         reflectance: REFLECTANCE,
         ..default()
     });
@@ -59,12 +62,16 @@ fn stage(deferred: bool) -> Stage {
     }
     world.insert_resource(GlobalAmbientLight { brightness: 0.0, ..default() });
     let cube = world.resource_mut::<Assets<Mesh>>().add(Cuboid::from_length(1.0));
-    let red = world.resource_mut::<Assets<StandardMaterial>>().add(Color::srgb(0.7, 0.2, 0.15));
+    let red = world.resource_mut::<Assets<StandardMaterial>>().add(StandardMaterial {
+        base_color: Color::srgb(0.7, 0.2, 0.15),
+        perceptual_roughness: 1.0,
+        ..default()
+    });
     for at in [Vec3::new(-1.5, 0.5, 0.0), Vec3::new(1.5, 1.6, -0.6)] {
         let turned = Transform::from_translation(at).with_rotation(Quat::from_rotation_y(0.5));
         world.spawn((Mesh3d(cube.clone()), MeshMaterial3d(red.clone()), turned));
     }
-    stage.look(Transform::from_xyz(0.0, 3.2, 5.0).looking_at(Vec3::new(0.0, 0.0, -0.6), Vec3::Y));
+    stage.look(Transform::from_xyz(0.0, 3.2, 5.0).looking_at(Vec3::new(0.0, 0.0, 0.6), Vec3::Y));
     stage
 }
 
@@ -82,22 +89,38 @@ fn of_camera(stage: &mut Stage, bundle: impl Bundle) {
 
 /// The picture of the plane as a mesh, with a field far below it, and as a field. What changes from frame to frame, as jitter and
 /// noise do, is at the same turn in both.
-fn pictures(mut stage: Stage) -> [RgbaImage; 2] {
-    let plane = mesh(stage.world());
+fn pictures(mut stage: Stage, roughness: f32) -> [RgbaImage; 2] {
+    let plane = mesh(stage.world(), roughness);
     let plane = stage.world().spawn(plane).id();
-    let ground = stage.world().spawn(field(-40.0)).id();
+    let ground = stage.world().spawn(field(-40.0, roughness)).id();
     let as_mesh = picture(&mut stage);
     stage.world().entity_mut(plane).despawn();
-    stage.world().entity_mut(ground).insert(field(0.0));
+    stage.world().entity_mut(ground).insert(field(0.0, roughness));
     [as_mesh, picture(&mut stage)]
 }
 
+/// The last of some frames in which the camera moves to its place.
 fn picture(stage: &mut Stage) -> RgbaImage {
     stage.settle();
     for i in 0.. {
         stage.off.update();
-        if i >= 12 && stage.world().resource::<FrameCount>().0.is_multiple_of(64) {
+        if i >= 12 && stage.world().resource::<FrameCount>().0 % 64 == 40 {
             break;
+        }
+    }
+    let camera = stage.camera;
+    let end = *stage.world().get::<Transform>(camera).expect("the camera stands somewhere");
+    for frame in (0..12).rev() {
+        let back = frame as f32;
+        let way = Transform::from_xyz(0.04 * back, 0.01 * back, 0.03 * back)
+            .with_rotation(Quat::from_rotation_y(0.004 * back));
+        stage.look(Transform {
+            rotation: end.rotation * way.rotation,
+            translation: end.translation + way.translation,
+            ..end
+        });
+        if frame > 0 {
+            stage.off.update();
         }
     }
     stage.off.screenshot()
@@ -141,7 +164,7 @@ const LIGHTS: [Case; 6] = [
     }),
 ];
 
-const FEATURES: [Case; 15] = [
+const FEATURES: [Case; 16] = [
     ("temporal antialiasing", |stage| of_camera(stage, TemporalAntiAliasing::default())),
     ("ambient occlusion", |stage| {
         stage.world().insert_resource(GlobalAmbientLight { brightness: 9000.0, ..default() });
@@ -150,7 +173,9 @@ const FEATURES: [Case; 15] = [
     ("prepass of depth, normals and motion", |stage| {
         of_camera(stage, (DepthPrepass, NormalPrepass, MotionVectorPrepass));
     }),
-    ("reflections", |stage| of_camera(stage, ScreenSpaceReflections::default())),
+    ("reflections", |stage| {
+        of_camera(stage, ScreenSpaceReflections::default());
+    }),
     ("bloom", |stage| of_camera(stage, Bloom::NATURAL)),
     ("depth of field", |stage| {
         of_camera(stage, DepthOfField { focal_distance: 4.0, aperture_f_stops: 0.05, ..default() });
@@ -189,13 +214,20 @@ const FEATURES: [Case; 15] = [
         stage.world().entity_mut(camera).remove::<Hdr>();
     }),
     ("four samples", |stage| of_camera(stage, Msaa::Sample4)),
+    ("contact shadows and four samples", |stage| {
+        of_camera(stage, (ContactShadows::default(), Msaa::Sample4));
+        let world = stage.world();
+        for mut light in world.query::<&mut DirectionalLight>().iter_mut(world) {
+            light.contact_shadows_enabled = true;
+        }
+    }),
 ];
 
 /// What a route can't have: Bevy's own restrictions.
 fn possible(name: &str, deferred: bool) -> bool {
     match name {
         "reflections" => deferred,
-        "four samples" => !deferred,
+        "four samples" | "contact shadows and four samples" => !deferred,
         _ => true,
     }
 }
@@ -206,7 +238,7 @@ fn compare(cases: &[Case], deferred: bool, base: fn(&mut Stage)) {
         let mut stage = stage(deferred);
         base(&mut stage);
         set(&mut stage);
-        let shots = pictures(stage);
+        let shots = pictures(stage, if *name == "reflections" { POLISHED } else { ROUGHNESS });
         let [mean, p999] = difference(&shots);
         println!("{name}, {}: mean {mean:.3}, p99.9 {p999}", if deferred { "deferred" } else { "forward" });
         let lit = shots[0].pixels().filter(|p| p[1] > 30).count();

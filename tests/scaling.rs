@@ -60,3 +60,41 @@ fn a_scale_out_of_range_is_brought_into_it() {
     assert_eq!(depth(&mut stage, -1.0), least);
     assert_ne!(least, whole);
 }
+
+/// What of a picture is less than half as bright as another, or over twice.
+fn share_that_differs(a: &[[f32; 4]], b: &[[f32; 4]]) -> f64 {
+    let differs = |(a, b): &(&[f32; 4], &[f32; 4])| a[1].min(b[1]) < 0.5 * a[1].max(b[1]);
+    a.iter().zip(b).filter(differs).count() as f64 / a.len() as f64
+}
+
+#[test]
+fn all_ground_is_lit_at_any_resolution() {
+    let view = four()[1].clone();
+    let seen = Seen::new(view.clone(), Place::ORIGIN).unwrap();
+    for deferred in [false, true] {
+        let mut stage = Stage::new(320, 180);
+        stage.light();
+        stage.world().spawn(Terrain::new(view.field.clone()));
+        let camera = stage.camera;
+        if deferred {
+            use bevy::core_pipeline::prepass::{DeferredPrepass, DepthPrepass};
+            stage.world().entity_mut(camera).insert((DepthPrepass, DeferredPrepass));
+        }
+        stage.look(seen.pose(0.0));
+        stage.settle();
+        let shown = |stage: &mut Stage, render_scale: f32, debug: DebugView| {
+            let mut camera = stage.off.app.world_mut().get_mut::<HorizonCamera>(camera).unwrap();
+            (camera.render_scale, camera.debug) = (render_scale, debug);
+            stage.off.update();
+            stage.colour()
+        };
+        for debug in [DebugView::None, DebugView::Normal] {
+            let whole = shown(&mut stage, 1.0, debug);
+            for scale in [0.75, 0.5, 0.25] {
+                let differs = share_that_differs(&whole, &shown(&mut stage, scale, debug));
+                println!("deferred {deferred}, {debug:?} at {scale}: {:.2} % differ", 100.0 * differs);
+                assert!(differs < 0.01, "deferred {deferred}, {debug:?} at {scale}: {differs}");
+            }
+        }
+    }
+}

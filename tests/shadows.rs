@@ -41,7 +41,14 @@ fn stage(field: Field, towards_sun: Vec3, size: [u32; 2], reach: f32, deferred: 
     world.spawn(terrain(field));
     world.insert_resource(GlobalAmbientLight { brightness: 500.0, ..default() });
     let cascades = CascadeShadowConfigBuilder { num_cascades: 1, maximum_distance: reach, ..default() }.build();
-    let light = DirectionalLight { illuminance: 60_000.0, shadow_maps_enabled: true, ..default() };
+    // Bevy's bias moves every edge by itself.
+    let light = DirectionalLight {
+        illuminance: 60_000.0,
+        shadow_maps_enabled: true,
+        shadow_depth_bias: 0.0,
+        shadow_normal_bias: 0.0,
+        ..default()
+    };
     world.spawn((light, cascades, Transform::default().looking_to(-towards_sun, Vec3::Y)));
     (0..2).for_each(|_| stage.off.update());
     stage
@@ -95,7 +102,8 @@ fn bisect(mut hidden: impl FnMut(f32) -> bool, mut dark: f32, mut light: f32) ->
 
 /// A smooth hill, the sun behind it, and a mesh in its lee: metres along x of the crest, and of the mesh's near side.
 fn hill() -> (Field, f32) {
-    let field = Field::Noise(Noise { wavelength: 80.0, amplitude: 16.0, seed: 4, ..default() });
+    let hill = Fractal { wavelength: 80.0, amplitude: 16.0, octaves: 4.0, gain: 0.2, seed: 4, ..default() };
+    let field = Field::Fractal(hill);
     let compiled = field.compile::<2>(&horizon_field::field::NoImages).expect("the field is good");
     let anchors = compiled.anchor(&Place::ORIGIN);
     let at = |x: f32| compiled.value_f64(&anchors, [f64::from(x), 20.0], 0.0) as f32;
@@ -106,16 +114,16 @@ fn hill() -> (Field, f32) {
 #[test]
 fn the_shadow_of_a_hill_on_a_mesh_ends_where_it_should() {
     const SIZE: u32 = 160;
-    const METRES: f32 = 6.0;
+    const METRES: f32 = 8.0;
     for deferred in [false, true] {
         let (field, crest) = hill();
         // The sun stands over −x.
-        let towards_sun = Vec3::new(-1.0, 0.42, 0.0).normalize();
+        let towards_sun = Vec3::new(-1.0, 0.25, 0.0).normalize();
         let mut stage = stage(field, towards_sun, [SIZE, SIZE], 24.0, deferred);
         let top = height(&mut stage, crest, 20.0);
         // A level mesh behind the hill, over the ground, on which the shadow ends.
         let near = crest + 14.0;
-        let level = height(&mut stage, near, 20.0).max(top - 9.0) + 0.6;
+        let level = top - 5.0;
         let edge_at = bisect(|x| hidden(&mut stage, Vec3::new(x, level, 20.0), towards_sun), near, near + 40.0);
         let middle = Vec3::new(edge_at, level, 20.0);
         let mesh = stage.world().resource_mut::<Assets<Mesh>>().add(Plane3d::default().mesh().size(12.0, 12.0));
@@ -140,7 +148,8 @@ fn the_shadow_of_a_hill_on_a_mesh_ends_where_it_should() {
             "deferred {deferred}: the edge is off by {mean:.2} px, at most {worst:.2}, at {} m a pixel",
             METRES / SIZE as f32
         );
-        assert!(worst < 1.0, "deferred {deferred}: {errors:?}");
+        // A pixel is 5 cm. The crest's own patches bow by a centimetre, which a low sun throws four times as far.
+        assert!(mean < 0.75 && worst < 1.25, "deferred {deferred}: {errors:?}");
     }
 }
 
@@ -223,4 +232,51 @@ fn a_mesh_two_kilometres_away_lies_in_the_shadow_that_the_ground_lies_in() {
         stage.world().entity_mut(plane).despawn();
     }
     assert!(brightness[1] > 3.0 * brightness[0], "shadow and light must differ: {brightness:?}");
+}
+
+#[test]
+fn a_sun_below_the_horizon_lights_nothing() {
+    for deferred in [false, true] {
+        // Slopes face it all the same.
+        let field = Field::Noise(Noise { wavelength: 300.0, amplitude: 120.0, seed: 2, ..default() });
+        let mut stage = stage(field, Vec3::new(-1.0, -0.18, 0.0).normalize(), [96, 54], 150.0, deferred);
+        stage.world().insert_resource(GlobalAmbientLight { brightness: 0.0, ..default() });
+        let ground = height(&mut stage, 0.0, 0.0);
+        let eye = Vec3::new(0.0, ground + 120.0, 0.0);
+        stage.look(Transform::from_translation(eye).looking_to(Vec3::new(0.7, -0.4, -0.7), Vec3::Y));
+        stage.settle();
+        let brightest = stage.colour().iter().map(|pixel| pixel[1]).fold(0.0, f32::max);
+        println!("deferred {deferred}: the brightest pixel is {brightest}");
+        // That of the colour to which the view was cleared.
+        assert!(brightest < 0.026, "deferred {deferred}: {brightest}");
+    }
+}
+
+#[test]
+fn a_camera_without_worlds_has_none_of_their_shadows() {
+    // A mesh under the ground, seen by a camera that does not see the ground.
+    let mut stage = stage(Field::Constant(0.0), Vec3::new(-0.5, 1.0, 0.2).normalize(), [64, 64], 60.0, false);
+    let mesh = stage.world().resource_mut::<Assets<Mesh>>().add(Plane3d::default().mesh().size(20.0, 20.0));
+    let material = grey(&mut stage);
+    stage.world().spawn((Mesh3d(mesh), MeshMaterial3d(material), Transform::from_xyz(0.0, -25.0, 0.0)));
+    look_down(&mut stage, Vec3::new(0.0, -25.0, 0.0), 8.0, 6.0);
+    let middle = |stage: &mut Stage| {
+        (0..6).for_each(|_| stage.off.update());
+        stage.colour()[32 * 64 + 32][1]
+    };
+    let camera = stage.camera;
+    let under_ground = middle(&mut stage);
+    stage.world().entity_mut(camera).remove::<HorizonCamera>();
+    // Somebody else looks at the world.
+    let target = stage.off.target();
+    stage.world().spawn((
+        Camera3d::default(),
+        Camera { order: -1, ..default() },
+        target,
+        HorizonCamera::default(),
+        Transform::from_xyz(0.0, 30.0, 0.0).looking_to(Vec3::new(0.0, -0.5, -1.0), Vec3::Y),
+    ));
+    let alone = middle(&mut stage);
+    println!("{under_ground} for a camera that sees worlds, {alone} for one that does not");
+    assert!(alone > 0.05, "{alone}");
 }

@@ -115,7 +115,8 @@ fn one_that_moves_refills_its_own_tiles() {
     let after = drawn(&mut stage, &pose());
     // Beyond both outlines, and a blended texel, no pixel is another.
     let aside = |p: Vec3| p.xz().distance(Vec2::ZERO) > 22.0 + 8.0 + 4.5;
-    let differ = |pair: &(&(Vec3, Vec3, f32), &(Vec3, Vec3, f32))| pair.0.2 != pair.1.2;
+    // A tile's bounds steer rays through it, and rounding with them.
+    let differ = |pair: &(&(Vec3, Vec3, f32), &(Vec3, Vec3, f32))| (pair.0.2 - pair.1.2).abs() > 1e-5 * pair.0.2;
     let changed: Vec<_> = before.iter().zip(&after).filter(differ).collect();
     assert!(changed.len() > 20 && changed.iter().all(|(a, b)| !(aside(a.0) && aside(b.0))), "{}", changed.len());
     let [height, ray, _] = compare(&mut stage, &pose());

@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 
 use bevy::asset::io::Reader;
 use bevy::asset::{AssetLoadError, AssetLoadFailedEvent, AssetLoader, LoadContext};
+#[cfg(feature = "render")]
+use bevy::light::{CascadeShadowConfig, CascadeShadowConfigBuilder};
 use bevy::prelude::*;
 use horizon_field::FieldError;
 use horizon_field::field::HeightImage;
@@ -297,6 +299,12 @@ impl Plugin for HorizonScenePlugin {
     }
 }
 
+/// Cascades for a landscape: meshes cast shadows over half a kilometre.
+#[cfg(feature = "render")]
+fn cascades() -> CascadeShadowConfig {
+    CascadeShadowConfigBuilder { first_cascade_far_bound: 16.0, maximum_distance: 500.0, ..default() }.build()
+}
+
 fn apply_worlds(
     mut commands: Commands,
     mut events: MessageReader<AssetEvent<WorldFile>>,
@@ -345,7 +353,7 @@ fn apply_worlds(
                 let brightest = r.max(g).max(b).max(1e-9);
                 let color = Color::linear_rgb(r / brightest, g / brightest, b / brightest);
                 let light = DirectionalLight { color, illuminance: brightest, shadow_maps_enabled: true, ..default() };
-                commands.spawn((WorldSun, Sunlight, light, sun.transform(), ChildOf(owner)));
+                commands.spawn((WorldSun, Sunlight, light, cascades(), sun.transform(), ChildOf(owner)));
                 continue;
             }
             let [r, g, b] = sun.colour;
@@ -355,7 +363,7 @@ fn apply_worlds(
                 shadow_maps_enabled: true,
                 ..default()
             };
-            commands.spawn((WorldSun, light, sun.transform(), ChildOf(owner)));
+            commands.spawn((WorldSun, light, cascades(), sun.transform(), ChildOf(owner)));
             commands.insert_resource(GlobalAmbientLight {
                 color: Color::linear_rgb(0.62, 0.78, 1.0),
                 brightness: sun.ambient,

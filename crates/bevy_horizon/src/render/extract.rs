@@ -3,9 +3,7 @@
 use std::sync::Arc;
 
 use bevy::camera::visibility::{InheritedVisibility, RenderLayers};
-use bevy::core_pipeline::prepass::DeferredPrepass;
 use bevy::light::{AmbientLight, DirectionalLight, GlobalAmbientLight};
-use bevy::pbr::deferred::SkipDeferredLighting;
 use bevy::prelude::*;
 use bevy::render::Extract;
 use bevy::render::sync_component::SyncComponent;
@@ -29,6 +27,8 @@ pub struct ExtractedWorld {
     pub sun: Option<ExtractedSun>,
     pub origin: Place,
     pub settings: super::cache::CacheSettings,
+    /// What terrain without stamps has: always the same, so that it does not look changed.
+    bare: Arc<Stamps>,
 }
 
 impl ExtractedWorld {
@@ -41,6 +41,12 @@ impl ExtractedWorld {
     /// The sun whose shadows the ground casts onto itself.
     pub fn shading_sun(&self) -> Option<(ExtractedSun, f32)> {
         self.risen_sun().filter(|(sun, _)| sun.shadows)
+    }
+
+    /// What the shaders know of the ground's own shadow: 1 where the cache has it, 2 where the ground hides a sun that is down.
+    pub fn self_shadow(&self) -> u32 {
+        let below = self.sun.is_some_and(|sun| sun.shadows) && self.risen_sun().is_none();
+        if below { 2 } else { u32::from(self.shading_sun().is_some()) }
     }
 
     /// The air that a camera sees, by its index.
@@ -91,17 +97,8 @@ pub struct ExtractedHorizonCamera {
 }
 
 impl SyncComponent for HorizonCamera {
-    type Target = (
-        ExtractedHorizonCamera,
-        ViewGround,
-        ViewBefore,
-        ViewAir,
-        ViewPasses,
-        ViewGeometry,
-        ViewShade,
-        ViewClearance,
-        SkipDeferredLighting,
-    );
+    type Target =
+        (ExtractedHorizonCamera, ViewGround, ViewBefore, ViewAir, ViewPasses, ViewGeometry, ViewShade, ViewClearance);
 }
 
 type Terrains<'w, 's> = Query<
@@ -118,32 +115,50 @@ type Terrains<'w, 's> = Query<
     ),
 >;
 
+type Suns<'w, 's> = Query<
+    'w,
+    's,
+    (
+        &'static DirectionalLight,
+        &'static GlobalTransform,
+        &'static InheritedVisibility,
+        Has<Sunlight>,
+        Option<&'static RenderLayers>,
+    ),
+>;
+
 pub fn extract_world(
     mut world: ResMut<ExtractedWorld>,
     terrains: Extract<Terrains>,
-    suns: Extract<Query<(&DirectionalLight, &GlobalTransform, &InheritedVisibility, Has<Sunlight>)>>,
+    suns: Extract<Suns>,
     origin: Extract<Res<WorldOrigin>>,
     settings: Extract<Res<super::cache::CacheSettings>>,
 ) {
     world.origin = origin.0;
     world.settings = settings.clone();
     world.terrains.clear();
+    let bare = world.bare.clone();
     for (entity, compiled, stamps, kernel, transform, visibility, layers) in &terrains {
         if visibility.get() {
             world.terrains.push(ExtractedTerrain {
                 entity,
                 fields: compiled.0.clone(),
-                stamps: stamps.map(|stamps| stamps.0.clone()).unwrap_or_default(),
+                stamps: stamps.map_or_else(|| bare.clone(), |stamps| stamps.0.clone()),
                 kernel: kernel.clone(),
                 translation: transform.translation(),
                 layers: layers.cloned().unwrap_or_default(),
             });
         }
     }
+    // A light of layers that no ground is in is no sun of it.
+    let shines = |layers: Option<&RenderLayers>| {
+        let layers = layers.cloned().unwrap_or_default();
+        world.terrains.is_empty() || world.terrains.iter().any(|terrain| layers.intersects(&terrain.layers))
+    };
     world.sun = suns
         .iter()
-        .filter(|(_, _, visibility, _)| visibility.get())
-        .map(|(light, transform, _, own)| ExtractedSun {
+        .filter(|(_, _, visibility, _, layers)| visibility.get() && shines(*layers))
+        .map(|(light, transform, _, own, _)| ExtractedSun {
             direction: *transform.back(),
             illuminance: light.color.to_linear().to_vec3() * light.illuminance,
             own,
@@ -181,17 +196,15 @@ type Cameras<'w, 's> = Query<
         &'static Camera,
         Option<&'static RenderLayers>,
         Option<&'static AmbientLight>,
-        Has<DeferredPrepass>,
     ),
 >;
 
 pub fn extract_cameras(
     mut commands: Commands,
-    world: Res<ExtractedWorld>,
     cameras: Extract<Cameras>,
     global: Extract<Option<Res<GlobalAmbientLight>>>,
 ) {
-    for (entity, camera, active, layers, ambient, deferred) in &cameras {
+    for (entity, camera, active, layers, ambient) in &cameras {
         let mut entity = commands.entity(entity);
         if !active.is_active {
             entity.remove::<<HorizonCamera as SyncComponent>::Target>();
@@ -203,12 +216,6 @@ pub fn extract_cameras(
             (None, None) => Vec3::ZERO,
         };
         let layers = layers.cloned().unwrap_or_default();
-        // Where there is ground, we light the whole G-buffer.
-        if deferred && world.terrains.iter().any(|terrain| layers.intersects(&terrain.layers)) {
-            entity.insert(SkipDeferredLighting);
-        } else {
-            entity.remove::<SkipDeferredLighting>();
-        }
         entity.insert(ExtractedHorizonCamera { camera: camera.clone(), layers, ambient, cached: true });
     }
 }

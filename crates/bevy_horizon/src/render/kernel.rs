@@ -6,6 +6,7 @@ use bevy::prelude::*;
 use bevy::shader::Shader;
 use horizon_field::Compiled;
 
+use super::cache::grain;
 use super::shaders::fill_source;
 use crate::world::{CompiledTerrain, TerrainFields};
 
@@ -15,6 +16,8 @@ pub struct TerrainKernel {
     /// The hash of the fields' structure.
     pub structure: u64,
     pub shader: Handle<Shader>,
+    /// log2 of the texel, in metres, below which nothing of the height is gained.
+    pub grain: i32,
 }
 
 /// The fields of a terrain in the order of its kernel: the height, then what its material uses.
@@ -35,7 +38,8 @@ pub fn write_kernels(
 ) {
     for (entity, compiled, old) in &changed {
         let kernel = compiled.0.material.kernel(0, &compiled.0.height);
-        if old.is_some_and(|old| old.structure == kernel.structure) {
+        let grain = grain(&compiled.0.height);
+        if old.is_some_and(|old| (old.structure, old.grain) == (kernel.structure, grain)) {
             continue;
         }
         let shader = kernels.0.entry(kernel.structure).or_insert_with(|| {
@@ -43,6 +47,6 @@ pub fn write_kernels(
             shaders.add(Shader::from_wgsl(fill_source(&kernel.source), path))
         });
         let shader = shader.clone();
-        commands.entity(entity).insert(TerrainKernel { structure: kernel.structure, shader });
+        commands.entity(entity).insert(TerrainKernel { structure: kernel.structure, shader, grain });
     }
 }

@@ -37,8 +37,8 @@ pub enum Source {
     Light,
     /// The table of clear distances.
     Clearance,
-    /// The ground's geometry: from the depth of a lower resolution; with the surfaces that a prepass has.
-    Geometry { scaled: bool, surfaces: bool },
+    /// The ground's geometry: from the depth of a lower resolution; with what a prepass has beside depth.
+    Geometry { scaled: bool, beside: Beside },
     /// A debug view.
     Heat { ldr: bool },
     /// Light on the ground, or on a G-buffer; under air that makes it.
@@ -59,6 +59,14 @@ pub enum Source {
     ViewTables { model: SkyModel },
 }
 
+/// What of a prepass is drawn beside the depth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Beside {
+    Nothing,
+    Motion,
+    Surfaces,
+}
+
 /// Models that have tables.
 const MODELS: [SkyModel; 3] = [SkyModel::Single, SkyModel::Fast, SkyModel::Full];
 const EITHER: [bool; 2] = [false, true];
@@ -71,8 +79,10 @@ impl Source {
         all.extend(EITHER.map(|first| Self::Moments { first }));
         all.extend(MODELS.map(|model| Self::ViewTables { model }));
         for a in EITHER {
+            all.extend(
+                [Beside::Nothing, Beside::Motion, Beside::Surfaces].map(|beside| Self::Geometry { scaled: a, beside }),
+            );
             for b in EITHER {
-                all.push(Self::Geometry { scaled: a, surfaces: b });
                 all.push(Self::Shade { deferred: false, multisampled: a, air: b });
             }
             all.extend([Self::Heat { ldr: a }, Self::Shade { deferred: true, multisampled: false, air: a }]);
@@ -97,7 +107,7 @@ impl Source {
             Self::Moments { first } => 0x06 + bits(&[first]),
             Self::ViewTables { model } => 0x08 + model as u128,
             Self::Cast => 0x05,
-            Self::Geometry { scaled, surfaces } => 0x10 + bits(&[scaled, surfaces]),
+            Self::Geometry { scaled, beside } => 0x0e + 3 * bits(&[scaled]) + beside as u128,
             Self::Heat { ldr } => 0x14 + bits(&[ldr]),
             Self::Shade { deferred, multisampled, air } => 0x18 + bits(&[deferred, multisampled, air]),
             Self::Gradient { ldr, multisampled } => 0x20 + bits(&[ldr, multisampled]),
@@ -117,10 +127,12 @@ impl Source {
             Self::Light => "light",
             Self::Clearance => "clearance",
             Self::Cast => "cast",
-            Self::Geometry { scaled: false, surfaces: false } => "geometry",
-            Self::Geometry { scaled: true, surfaces: false } => "geometry_scaled",
-            Self::Geometry { scaled: false, surfaces: true } => "geometry_surfaces",
-            Self::Geometry { scaled: true, surfaces: true } => "geometry_scaled_surfaces",
+            Self::Geometry { scaled: false, beside: Beside::Nothing } => "geometry",
+            Self::Geometry { scaled: false, beside: Beside::Motion } => "geometry_motion",
+            Self::Geometry { scaled: false, beside: Beside::Surfaces } => "geometry_surfaces",
+            Self::Geometry { scaled: true, beside: Beside::Nothing } => "geometry_scaled",
+            Self::Geometry { scaled: true, beside: Beside::Motion } => "geometry_scaled_motion",
+            Self::Geometry { scaled: true, beside: Beside::Surfaces } => "geometry_scaled_surfaces",
             Self::Heat { .. } => "heat",
             Self::Shade { deferred: false, .. } => "shade_forward",
             Self::Shade { deferred: true, .. } => "shade_deferred",
@@ -142,7 +154,7 @@ impl Source {
             Self::Light => [SURFACE, SUN_SEEN, include_str!("cache/light.wgsl")].join("\n"),
             Self::Clearance => [VIEW, SURFACE, include_str!("passes/clearance.wgsl")].join("\n"),
             Self::Cast => [SURFACE, include_str!("passes/cast.wgsl")].join("\n"),
-            Self::Geometry { scaled, surfaces } => geometry(scaled, surfaces),
+            Self::Geometry { scaled, beside } => geometry(scaled, beside),
             Self::Heat { ldr } => heat(ldr),
             Self::Shade { deferred, multisampled, air } => shade(deferred, multisampled, air),
             Self::Gradient { ldr, multisampled } => {
@@ -202,13 +214,13 @@ fn rays(counted: bool) -> String {
     .join("\n")
 }
 
-fn geometry(scaled: bool, surfaces: bool) -> String {
+fn geometry(scaled: bool, beside: Beside) -> String {
     let rays = rays(false);
     let found = if scaled { include_str!("passes/upsample.wgsl") } else { include_str!("passes/whole.wgsl") };
-    if surfaces {
-        [&rays, found, LOOK, MOTION, include_str!("passes/surfaces.wgsl")].join("\n")
-    } else {
-        [&rays, found, include_str!("passes/depth_alone.wgsl")].join("\n")
+    match beside {
+        Beside::Nothing => [&rays, found, include_str!("passes/depth_alone.wgsl")].join("\n"),
+        Beside::Motion => [&rays, found, MOTION, include_str!("passes/depth_motion.wgsl")].join("\n"),
+        Beside::Surfaces => [&rays, found, LOOK, MOTION, include_str!("passes/surfaces.wgsl")].join("\n"),
     }
 }
 

@@ -13,6 +13,7 @@ use super::cache::{Caches, pixel_size};
 use super::extract::{ExtractedHorizonCamera, ExtractedWorld};
 use super::passes::{ClearancePipeline, Table};
 use super::uniforms::{AirUniform, GradientUniform, HorizonViewUniform};
+use crate::camera::DebugView;
 use crate::world::SkyModel;
 
 /// What a view draws.
@@ -151,13 +152,14 @@ pub fn prepare_views(
             columns: table.columns,
             rings: table.rings,
             sun_towards: world.sun.map_or(Vec3::Y, |sun| sun.direction),
-            self_shadow: u32::from(world.shading_sun().is_some()),
+            self_shadow: world.self_shadow(),
             clip_from_offset: now.clip_from_offset,
             previous_clip_from_offset: last.clip_from_offset * Mat4::from_translation(moved),
         };
         ground.offsets[0] = uniforms.views.push(&uniform);
         // `clamp` keeps NaN, which the comparison then takes for the whole size.
-        let scale = camera.camera.render_scale.clamp(0.25, 1.0);
+        let shown = camera.camera.debug == DebugView::None;
+        let scale = if shown { camera.camera.render_scale.clamp(0.25, 1.0) } else { 1.0 };
         ground.scaled = (scale < 1.0).then(|| (size.as_vec2() * scale).ceil().as_uvec2());
         if let Some(size) = ground.scaled {
             let viewport = Vec4::new(0.0, 0.0, size.x as f32, size.y as f32);

@@ -4,11 +4,16 @@
 //! stored toroidally, so that a centre that moves needs only new strips. Tiles lie on a grid fixed to the world: the
 //! same tile is always computed in the same way, wherever the camera and Bevy's origin are.
 
-use horizon_field::stamp::Area;
-use horizon_field::{CELL, Place};
+use std::collections::HashSet;
 
-/// Texels along a tile's side.
-pub const TILE: i64 = 64;
+use horizon_field::Place;
+use horizon_field::stamp::Area;
+
+use self::tiles::texel_of;
+pub use self::tiles::{TILE, Tile, TileRect, place_of};
+
+mod tiles;
+
 /// Words of a tile's pyramid: what its bounds are counted from and in, then 32² + 16² + 8² + 4² + 2² + 1 nodes.
 pub const TILE_BOUNDS: u64 = 2 + 1365;
 /// The most levels that a clipmap can have; the array in `surface.wgsl` is as long.
@@ -21,38 +26,6 @@ pub const FINEST: i32 = -8;
 const FRAMES: usize = 8;
 /// Where a level begins to blend into the next, as a part of its radius.
 const INNER: f32 = 0.8;
-
-/// A rectangle of tiles, `min` included, `max` not.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct TileRect {
-    pub min: [i64; 2],
-    pub max: [i64; 2],
-}
-
-impl TileRect {
-    fn is_empty(&self) -> bool {
-        self.min[0] >= self.max[0] || self.min[1] >= self.max[1]
-    }
-
-    fn intersection(&self, other: &Self) -> Self {
-        Self {
-            min: [self.min[0].max(other.min[0]), self.min[1].max(other.min[1])],
-            max: [self.max[0].min(other.max[0]), self.max[1].min(other.max[1])],
-        }
-    }
-
-    fn contains(&self, tile: [i64; 2]) -> bool {
-        (0..2).all(|i| self.min[i] <= tile[i] && tile[i] < self.max[i])
-    }
-
-    fn tiles(self) -> impl Iterator<Item = [i64; 2]> {
-        (self.min[1]..self.max[1]).flat_map(move |z| (self.min[0]..self.max[0]).map(move |x| [x, z]))
-    }
-
-    fn area(&self) -> usize {
-        if self.is_empty() { 0 } else { ((self.max[0] - self.min[0]) * (self.max[1] - self.min[1])) as usize }
-    }
-}
 
 /// One level of a clipmap.
 #[derive(Clone, Debug)]
@@ -71,15 +44,6 @@ pub struct Level {
     stale: Vec<bool>,
     dark: Vec<bool>,
     dim: Vec<bool>,
-}
-
-/// A tile of a level.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Tile {
-    /// The level, by the exponent of its texel.
-    pub exponent: i32,
-    /// The tile's index in the world.
-    pub index: [i64; 2],
 }
 
 /// What is to be done in a frame.
@@ -123,33 +87,6 @@ pub struct DrawnLevel {
     pub low: [i32; 2],
     pub high: [i32; 2],
     pub slot: u32,
-}
-
-/// The texel index of a place at a level, and the fraction in it, of x and z.
-fn texel_of(place: &Place, exponent: i32) -> ([i64; 2], [f64; 2]) {
-    let texel = f64::from(exponent).exp2();
-    let mut index = [0; 2];
-    let mut fraction = [0.0; 2];
-    for (i, axis) in [0, 2].into_iter().enumerate() {
-        let local = place.offset[axis] / texel;
-        let whole = local.floor();
-        index[i] = place.cell[axis].wrapping_mul((CELL / texel) as i64).wrapping_add(whole as i64);
-        fraction[i] = local - whole;
-    }
-    (index, fraction)
-}
-
-/// The place of a tile's first texel, at height 0.
-pub fn place_of(tile: Tile) -> Place {
-    let texel = f64::from(tile.exponent).exp2();
-    let per_cell = (CELL / texel) as i64;
-    let mut place = Place::ORIGIN;
-    for (i, axis) in [0, 2].into_iter().enumerate() {
-        let index = tile.index[i].wrapping_mul(TILE);
-        place.cell[axis] = index.div_euclid(per_cell);
-        place.offset[axis] = index.rem_euclid(per_cell) as f64 * texel;
-    }
-    place
 }
 
 /// Where a level of `side` × `side` tiles stores a tile.
@@ -305,12 +242,13 @@ impl Clipmap {
                 self.fill(i, index, &mut work);
             }
         }
+        let mut pyramids = HashSet::new();
         for tile in &work.fill {
             for [dx, dz] in [[0, 0], [-1, 0], [0, -1], [-1, -1]] {
                 let neighbour = Tile { exponent: tile.exponent, index: [tile.index[0] + dx, tile.index[1] + dz] };
                 let valid =
                     self.levels.iter().any(|l| l.exponent == tile.exponent && l.valid.contains(neighbour.index));
-                if valid && !work.pyramid.contains(&neighbour) {
+                if valid && pyramids.insert(neighbour) {
                     work.pyramid.push(neighbour);
                 }
             }

@@ -50,18 +50,18 @@ impl Demand {
         let nominal = 2.0 * (NOMINAL_FOV / 2.0).tan() / height_px as f32;
         let texels = 2.0 * (std::f32::consts::SQRT_2 / (0.8 * nominal * budget) + 34.0);
         let mut side = ((texels / (2 * TILE) as f32).ceil() as u32 * 2).max(4);
-        // Below an eighth of the field's finest wave, a patch is as smooth as what it stands for; a colour needs a quarter.
-        let fields = &terrain.fields;
-        let wave = (fields.height.finest_wavelength().min(terrain.stamps.finest_wavelength()) / 8.0)
-            .min(fields.material.finest_wavelength() / 4.0);
-        let detail = wave.log2().floor().clamp(FINEST.into(), COARSEST.into()) as i32;
+        // Of a stamp's falloff an eighth is enough; of a colour, a quarter of the finest wave.
+        let wave = (terrain.stamps.finest_wavelength() / 8.0).min(terrain.fields.material.finest_wavelength() / 4.0);
+        let detail = (wave.log2().floor().clamp(FINEST.into(), COARSEST.into()) as i32).min(terrain.kernel.grain);
         let far = camera.camera.far.clamp(1.0, 1e6);
         let binding = device.limits().max_storage_buffer_binding_size;
         loop {
             let reach = (i64::from(side) * TILE / 2 - 34) as f32;
             let coarsest = ((far / reach).log2().ceil() as i32).clamp(FINEST, COARSEST);
             let detail = detail.min(coarsest);
-            let wanted = (coarsest - detail + 1).clamp(1, MAX_LEVELS as i32) as u64;
+            // Stamps come and go, and a cache of another capacity is another cache: down to falloffs of a metre there is room.
+            let stored = if terrain.stamps.is_empty() { detail } else { detail.min(-2) };
+            let wanted = (coarsest - stored + 1).clamp(1, MAX_LEVELS as i32) as u64;
             let tiles = u64::from(side).pow(2);
             let affordable = ((u64::from(share) << 20) / (tiles * TILE_BYTES)).min(binding / (tiles * LOOK_BYTES));
             if affordable >= wanted || side <= 6 {

@@ -3,8 +3,10 @@
 mod buffers;
 pub(crate) mod clipmap;
 mod demand;
+mod grain;
 mod pipelines;
 
+use bevy::camera::visibility::RenderLayers;
 use bevy::math::DVec3;
 use bevy::prelude::*;
 use bevy::render::camera::ExtractedCamera;
@@ -20,12 +22,14 @@ use self::buffers::FrameJobs;
 use self::clipmap::{Clipmap, DrawnLevel, TILE};
 use self::demand::Demand;
 pub(crate) use self::demand::pixel_size;
+pub(crate) use self::grain::grain;
 pub(crate) use self::pipelines::CachePipelines;
+use super::air::ViewAir;
 use super::extract::{ExtractedAtmosphere, ExtractedHorizonCamera, ExtractedTerrain, ExtractedWorld};
 use super::passes::{ClearancePipeline, ViewClearance, ViewGeometry, ViewPasses, ViewShade};
 use super::ready::Progress;
 use super::uniforms::{GradientUniform, SunUniform};
-use super::view::{ViewGround, ViewSky};
+use super::view::{ViewBefore, ViewGround, ViewSky};
 use crate::world::{SkyModel, TerrainFields};
 use std::sync::Arc;
 
@@ -114,7 +118,15 @@ pub(crate) fn prepare_caches(
         let air = world.air(&camera.layers);
         let terrain = terrain_of(camera);
         if terrain.is_none() && air.is_none() {
-            commands.entity(entity).remove::<(ViewGround, ViewPasses, ViewGeometry, ViewShade, ViewClearance)>();
+            commands.entity(entity).remove::<(
+                ViewGround,
+                ViewBefore,
+                ViewAir,
+                ViewPasses,
+                ViewGeometry,
+                ViewShade,
+                ViewClearance,
+            )>();
             continue;
         }
         if terrain.is_some() && camera.cached {
@@ -222,6 +234,11 @@ impl Cache {
         let [x, _, z] = eye.minus(&self.centre);
         let y = eye.cell[1] as f64 * horizon_field::CELL + eye.offset[1];
         Vec3::new(x as f32, y as f32, z as f32)
+    }
+
+    /// The layers of its terrain.
+    pub fn layers<'a>(&self, world: &'a ExtractedWorld) -> Option<&'a RenderLayers> {
+        world.terrains.iter().find(|terrain| terrain.entity == self.terrain).map(|terrain| &terrain.layers)
     }
 
     /// The lowest and the highest that the ground may be, in metres above the datum.

@@ -36,6 +36,10 @@ fn unpacked_sun(word: u32, above: f32) -> f32 {
         return seen;
     }
     let x = select(exp2(f32(code - 128u) / 127.0 * DEEPEST), line_under(seen), code < 128u);
-    let penumbra = exp2(f32(word >> 8u) / 255.0 * PENUMBRA_SPAN + PENUMBRA_LOW);
-    return disc_above(x - above / penumbra);
+    return disc_above(x - above / unpacked_penumbra(word));
+}
+
+// Over what height that changes by a radius of the disc, in metres.
+fn unpacked_penumbra(word: u32) -> f32 {
+    return exp2(f32(word >> 8u) / 255.0 * PENUMBRA_SPAN + PENUMBRA_LOW);
 }

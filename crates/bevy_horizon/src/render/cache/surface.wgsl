@@ -154,3 +154,11 @@ fn level_at(p: vec2<f32>) -> u32 {
     }
     return level;
 }
+
+// The drawn ground's height at a point of a level.
+fn ground_height(level: u32, p: vec2<f32>) -> f32 {
+    let l = clipmap.levels[level];
+    let at = p * l.per_metre + l.fraction;
+    let f = at - floor(at);
+    return between_corners(corners(l, level, vec2<i32>(floor(at))), f.x, f.y);
+}

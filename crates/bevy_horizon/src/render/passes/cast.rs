@@ -1,9 +1,11 @@
 //! The ground in Bevy's shadow maps: every cascade, face of a cube and cone in which it may stand, as a grid displaced from the cache.
 //! Nothing is built before a light casts shadows over a terrain.
 
+use bevy::camera::visibility::RenderLayers;
 use bevy::core_pipeline::core_3d::CORE_3D_DEPTH_FORMAT;
-use bevy::math::{Mat4, Vec4};
-use bevy::pbr::{ShadowView, ViewLightEntities};
+use bevy::ecs::entity::EntityHashMap;
+use bevy::math::{Mat4, Vec3Swizzles, Vec4};
+use bevy::pbr::{ExtractedPointLight, LightEntity, ShadowView, ViewLightEntities};
 use bevy::prelude::*;
 use bevy::render::diagnostic::RecordDiagnostics;
 use bevy::render::render_resource::binding_types::{storage_buffer_read_only_sized, uniform_buffer};
@@ -17,16 +19,21 @@ use bevy::render::renderer::{RenderContext, RenderDevice, RenderQueue, ViewQuery
 use bevy::render::view::ExtractedView;
 use bytemuck::{Pod, Zeroable};
 
+use super::super::cache::clipmap::DrawnLevel;
 use super::super::cache::{Cache, Caches};
+use super::super::extract::ExtractedWorld;
 use super::super::shaders::Source;
 use super::super::uniforms::ClipmapUniform;
 use super::super::view::ViewGround;
 
-/// Quads along a patch's side, and texels along a quad's: a patch is a tile.
+/// Quads along a patch's side.
 const QUADS: u16 = 16;
-const QUAD_TEXELS: f32 = 4.0;
+/// The most texels along a quad's side: a patch is then a tile.
+const WIDEST: i32 = 4;
 /// How wide a quad should be, in texels of the shadow map: silhouettes bend by a hundredth of that over a hill that is a hundred wide.
 const QUAD_IN_MAP: f32 = 8.0;
+/// Quads that a vertex is pushed away from the light; as in `cast.wgsl`.
+const PUSH: f32 = 2.0;
 
 /// `Light` of `cast.wgsl`.
 #[derive(Clone, Copy, Debug, ShaderType)]
@@ -40,7 +47,7 @@ struct LightUniform {
 #[repr(C)]
 struct Patch {
     level: u32,
-    padding: u32,
+    quad: i32,
     cell: [i32; 2],
 }
 
@@ -133,11 +140,13 @@ struct LightView {
     place: Vec4,
     /// Metres of a texel of the map; at a metre from the light where that is a point.
     texel: f32,
+    /// How far it reaches, in metres.
+    range: f32,
 }
 
 impl LightView {
     /// As seen from a terrain's cache, whose centre is at `centre` in Bevy's coordinates.
-    fn new(view: &ExtractedView, centre: Vec3) -> Self {
+    fn new(view: &ExtractedView, centre: Vec3, range: f32) -> Self {
         let clip_from_world =
             view.clip_from_world.unwrap_or_else(|| view.clip_from_view * view.world_from_view.to_matrix().inverse());
         let orthographic = view.clip_from_view.w_axis.w == 1.0;
@@ -151,11 +160,28 @@ impl LightView {
             clip_from_ground: clip_from_world * Mat4::from_translation(centre),
             place,
             texel: 2.0 / (view.clip_from_view.x_axis.x.abs().max(1e-9) * size),
+            range,
         }
+    }
+
+    fn is_sun(&self) -> bool {
+        self.place.w == 0.0
+    }
+
+    /// How wide quads should be around a point, in metres.
+    fn quad_at(&self, at: Vec3) -> f32 {
+        let distance = if self.is_sun() { 1.0 } else { self.place.truncate().distance(at).max(1.0) };
+        QUAD_IN_MAP * self.texel * distance
     }
 
     /// Whether a box may be seen in the map, or cast into it from before its near plane.
     fn sees(&self, low: Vec3, high: Vec3) -> bool {
+        if !self.is_sun() {
+            let place = self.place.truncate();
+            if place.distance_squared(place.clamp(low, high)) > self.range * self.range {
+                return false;
+            }
+        }
         let corners = (0..8).map(|i| {
             let pick = |bit: i32, low: f32, high: f32| if i & bit == 0 { low } else { high };
             self.clip_from_ground
@@ -174,55 +200,86 @@ impl LightView {
     }
 }
 
-/// The tiles that a light may see, of levels whose quads are not much finer than the map.
+/// The patches that a light may see, of levels whose quads are not much finer than the map. Where texels are wider than quads should
+/// be, as under smooth ground, every texel is a quad; ground that only casts into the map from far away has wider ones.
 fn patches(cache: &Cache, light: &LightView, heights: [f32; 2], patches: &mut Vec<Patch>) {
-    let drawn = &cache.drawn;
     let metres = |exponent: i32| (exponent as f32).exp2();
-    let fine_enough = |exponent: i32| QUAD_TEXELS * metres(exponent) >= QUAD_IN_MAP * light.texel;
-    let is_map = light.place.w == 0.0;
-    let usable = |i: &usize| drawn[*i].outer > 0.0 && (!is_map || fine_enough(drawn[*i].exponent));
-    let levels: Vec<usize> = (0..drawn.len()).filter(usable).collect();
+    let coarsest = cache.drawn.iter().rposition(|level| level.outer > 0.0);
     let mut inner = 0.0;
-    for &i in &levels {
-        let level = &drawn[i];
+    for (i, level) in cache.drawn.iter().enumerate() {
         let texel = metres(level.exponent);
-        let [low, high] = [level.low, level.high];
-        for z in (low[1]..high[1]).step_by(64) {
-            for x in (low[0]..high[0]).step_by(64) {
-                let from = [x, z].map(|c| c as f32);
-                let fraction = level.fraction;
-                let min = [0, 1].map(|k| (from[k] - fraction[k]) * texel);
-                let max = min.map(|m| m + 64.0 * texel);
-                // A tile that a finer level has whole, and some to spare, so that the two overlap.
-                let hidden = (0..2).all(|k| min[k] > -inner + texel * 8.0 && max[k] < inner - texel * 8.0);
-                let outside = (0..2).any(|k| min[k] > level.outer * texel || max[k] < -level.outer * texel);
-                if hidden || outside {
-                    continue;
-                }
-                let push = 2.0 * QUAD_TEXELS * texel;
-                let low = Vec3::new(min[0], heights[0] - push, min[1]) - Vec3::new(push, 0.0, push);
-                let high = Vec3::new(max[0], heights[1] + push, max[1]) + Vec3::new(push, 0.0, push);
-                if light.sees(low, high) {
-                    patches.push(Patch { level: i as u32, padding: 0, cell: [x, z] });
+        let too_fine = light.is_sun() && WIDEST as f32 * texel < light.quad_at(Vec3::ZERO) && Some(i) != coarsest;
+        if level.outer <= 0.0 || too_fine {
+            continue;
+        }
+        let least = if inner == 0.0 { 1 } else { 2 };
+        let rim = level.outer * texel;
+        let tile = i32::from(QUADS) * WIDEST;
+        for corner in squares(level.low, level.high, tile) {
+            let (low, high) = bounds(level, corner, tile, heights);
+            // What a finer level has whole, and some to spare, so that the two overlap; and what lies beyond the rim.
+            let spare = inner - 8.0 * texel;
+            let hidden = low.xz().min_element() > -spare && high.xz().max_element() < spare;
+            let outside = low.xz().max_element() > rim || high.xz().min_element() < -rim;
+            if hidden || outside || !light.sees(low, high) {
+                continue;
+            }
+            let wanted = light.quad_at(light.place.truncate().clamp(low, high));
+            let quad = [WIDEST, 2].into_iter().find(|quad| *quad as f32 * texel <= wanted).unwrap_or(1).max(least);
+            let side = i32::from(QUADS) * quad;
+            let end = corner.map(|c| c + tile);
+            for cell in squares(corner, end, side) {
+                let (low, high) = bounds(level, cell, side, heights);
+                if side == tile || light.sees(low, high) {
+                    patches.push(Patch { level: i as u32, quad, cell });
                 }
             }
         }
-        inner = level.outer * texel;
+        inner = rim;
     }
 }
 
-type Maps<'w, 's> = Query<'w, 's, (Entity, &'static ExtractedView), With<ShadowView>>;
+/// The first cells of the squares of so many texels in a rectangle of cells.
+fn squares(low: [i32; 2], high: [i32; 2], side: i32) -> impl Iterator<Item = [i32; 2]> {
+    let rows = (low[1]..high[1]).step_by(side as usize);
+    rows.flat_map(move |z| (low[0]..high[0]).step_by(side as usize).map(move |x| [x, z]))
+}
 
-/// Makes out what of the ground each shadow map may show: cascades from their own camera's cache, point and spot lights from the
-/// first.
+/// The box that a square of so many texels may fill, as it is pushed.
+fn bounds(level: &DrawnLevel, cell: [i32; 2], side: i32, heights: [f32; 2]) -> (Vec3, Vec3) {
+    let texel = (level.exponent as f32).exp2();
+    let [x, z] = [0, 1].map(|k| (cell[k] as f32 - level.fraction[k]) * texel);
+    let (width, push) = (side as f32 * texel, PUSH * WIDEST as f32 * texel);
+    (Vec3::new(x, heights[0], z) - push, Vec3::new(x + width, heights[1], z + width) + push)
+}
+
+type Maps<'w, 's> = Query<
+    'w,
+    's,
+    (Entity, &'static ExtractedView, &'static LightEntity, Option<&'static RenderLayers>, Has<GroundCast>),
+    With<ShadowView>,
+>;
+
+/// Ground that casts: its cache, the cache's centre and the camera's place in Bevy's coordinates, and the terrain's layers.
+struct Ground<'a> {
+    cache: usize,
+    centre: Vec3,
+    eye: Vec3,
+    layers: &'a RenderLayers,
+}
+
+/// Makes out what of the ground each shadow map may show: cascades from their own camera's cache, point and spot lights from that of
+/// the nearest camera.
 pub fn prepare_casts(
     mut commands: Commands,
     mut pipeline: ResMut<CastPipeline>,
+    world: Res<ExtractedWorld>,
     caches: Res<Caches>,
     pipelines: Res<PipelineCache>,
     device: Res<RenderDevice>,
     queue: Res<RenderQueue>,
     views: Query<(&ViewGround, &ExtractedView, Option<&ViewLightEntities>)>,
+    points: Query<&ExtractedPointLight>,
     maps: Maps,
 ) {
     let pipeline = &mut *pipeline;
@@ -230,34 +287,47 @@ pub fn prepare_casts(
     pipeline.patches = None;
     pipeline.groups.clear();
     let mut all = Vec::new();
-    let mut casting = Vec::new();
-    let mut owned = Vec::new();
-    let mut first = None;
+    let mut grounds = Vec::new();
+    let mut owned = EntityHashMap::default();
     for (ground, view, lights) in &views {
-        let Some(index) = ground.cache else { continue };
-        // The cache's centre, in Bevy's coordinates.
-        let centre = view.world_from_view.translation() - caches.0[index].eye(&ground.eye);
-        first = first.or(Some((index, centre)));
-        let lights = lights.map_or(&[][..], |lights| &lights.lights);
-        owned.extend_from_slice(lights);
-        casting.extend(lights.iter().map(|light| (*light, index, centre)));
+        let Some(cache) = ground.cache else { continue };
+        let Some(layers) = caches.0[cache].layers(&world) else { continue };
+        let eye = view.world_from_view.translation();
+        let centre = eye - caches.0[cache].eye(&ground.eye);
+        for light in lights.iter().flat_map(|lights| &lights.lights) {
+            owned.insert(*light, grounds.len());
+        }
+        grounds.push(Ground { cache, centre, eye, layers });
     }
-    let shared = maps.iter().map(|(entity, _)| entity).filter(|entity| !owned.contains(entity));
-    casting.extend(shared.filter_map(|light| first.map(|(index, centre)| (light, index, centre))));
-    for (entity, _) in &maps {
-        commands.entity(entity).remove::<GroundCast>();
-    }
-    for (entity, index, centre) in casting {
-        let Ok((_, view)) = maps.get(entity) else { continue };
-        let light = LightView::new(view, centre);
+    for (entity, view, light, layers, was) in &maps {
+        let layers = layers.cloned().unwrap_or_default();
+        let (ground, range) = match light {
+            LightEntity::Directional { .. } => (owned.get(&entity).map(|index| &grounds[*index]), f32::INFINITY),
+            LightEntity::Point { light_entity, .. } | LightEntity::Spot { light_entity } => {
+                let place = view.world_from_view.translation();
+                let near =
+                    |a: &&Ground, b: &&Ground| a.eye.distance_squared(place).total_cmp(&b.eye.distance_squared(place));
+                let lit = grounds.iter().filter(|ground| ground.layers.intersects(&layers));
+                (lit.min_by(near), points.get(*light_entity).map_or(f32::INFINITY, |point| point.range))
+            }
+        };
         let from = all.len() as u32;
-        let cache = &caches.0[index];
-        patches(cache, &light, cache.heights(), &mut all);
+        let light = ground.map(|ground| {
+            let light = LightView::new(view, ground.centre, range);
+            let cache = &caches.0[ground.cache];
+            patches(cache, &light, cache.heights(), &mut all);
+            (light, ground.cache)
+        });
         let count = all.len() as u32 - from;
-        if count > 0 {
-            let offset =
-                pipeline.lights.push(&LightUniform { clip_from_ground: light.clip_from_ground, place: light.place });
-            commands.entity(entity).insert(GroundCast { cache: index, offset, first: from, count });
+        match light.filter(|_| count > 0) {
+            Some((LightView { clip_from_ground, place, .. }, cache)) => {
+                let offset = pipeline.lights.push(&LightUniform { clip_from_ground, place });
+                commands.entity(entity).insert(GroundCast { cache, offset, first: from, count });
+            }
+            None if was => {
+                commands.entity(entity).remove::<GroundCast>();
+            }
+            None => {}
         }
     }
     if all.is_empty() {

@@ -1,5 +1,4 @@
-// The ground in a shadow map: a patch of 16 × 16 quads for each tile of 64 × 64 texels, at the cached heights, depth alone. Quads
-// are some texels of the map wide, so that silhouettes lie where they should; what lies within a quad does not, and so every vertex is
+// The ground in a shadow map: patches of 16 × 16 quads at the cached heights, depth alone. Quads are some texels of the map wide, so that silhouettes lie where they should; what lies within a quad does not, and so every vertex is
 // pushed away from the light by more than that, along the light, which moves no silhouette. Needs surface.wgsl.
 
 @group(0) @binding(1) var<storage, read> heights: array<f32>;
@@ -15,6 +14,8 @@ struct Light {
 
 struct Patch {
     level: u32,
+    // Texels along a quad.
+    quad: i32,
     // The first cell, relative to the centre's.
     cell: vec2<i32>,
 }
@@ -22,20 +23,19 @@ struct Patch {
 @group(0) @binding(3) var<uniform> light: Light;
 @group(0) @binding(4) var<storage, read> patches: array<Patch>;
 
-// Texels to a quad, and quads pushed.
-const QUAD: i32 = 4;
+// Quads that a vertex is pushed.
 const PUSH: f32 = 2.0;
 
 @vertex
 fn cast_ground(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance: u32) -> @builtin(position) vec4<f32> {
     let one = patches[instance];
     let l = clipmap.levels[one.level];
-    let corner = one.cell + vec2<i32>(vec2<u32>(vertex % 17u, vertex / 17u)) * QUAD;
+    let corner = one.cell + vec2<i32>(vec2<u32>(vertex % 17u, vertex / 17u)) * one.quad;
     let cell = clamp(corner, l.low, l.high - vec2<i32>(1));
     let at = (vec2<f32>(cell) - l.fraction) * l.texel;
     let p = vec3<f32>(at.x, stored_height(l, cell), at.y);
     let to_light = normalize(light.place.xyz - p * light.place.w);
-    var clip = light.clip_from_ground * vec4<f32>(p - to_light * (PUSH * f32(QUAD) * l.texel), 1.0);
+    var clip = light.clip_from_ground * vec4<f32>(p - to_light * (PUSH * f32(one.quad) * l.texel), 1.0);
     if (light.place.w == 0.0) {
         // What stands between the light and a cascade casts into it from its near plane.
         clip.z = min(clip.z, clip.w);

@@ -21,7 +21,7 @@ use bevy::render::texture::{CachedTexture, TextureCache};
 use bevy::render::view::ViewDepthTexture;
 
 use super::super::cache::Caches;
-use super::super::shaders::Source;
+use super::super::shaders::{Beside, Source};
 use super::super::uniforms::{ClipmapUniform, HorizonViewUniform};
 use super::super::view::{HorizonViews, ViewGround};
 use super::clearance::{ClearancePipeline, ViewClearance};
@@ -39,6 +39,14 @@ impl Targets {
     fn any(self) -> bool {
         self.normal || self.motion || self.deferred
     }
+
+    fn beside(self) -> Beside {
+        match self {
+            Self { normal: false, motion: false, deferred: false } => Beside::Nothing,
+            Self { normal: false, motion: true, deferred: false } => Beside::Motion,
+            _ => Beside::Surfaces,
+        }
+    }
 }
 
 /// What a pipeline depends on.
@@ -52,7 +60,7 @@ struct Key {
 
 impl Key {
     fn source(self) -> Source {
-        Source::Geometry { scaled: self.scaled, surfaces: self.targets.any() }
+        Source::Geometry { scaled: self.scaled, beside: self.targets.beside() }
     }
 
     fn layout(self) -> BindGroupLayoutDescriptor {
@@ -67,7 +75,7 @@ impl Key {
                 (6, read()),
             ),
         );
-        if self.targets.any() {
+        if self.targets.beside() == Beside::Surfaces {
             entries = entries.extend_with_indices(((3, read()),));
         }
         if self.scaled {
@@ -197,7 +205,7 @@ pub fn bind_geometry(
         .to_vec();
         let bind = |draw: &mut Draw, depth: Option<&CachedTexture>| {
             let mut entries = entries.clone();
-            if draw.key.targets.any() {
+            if draw.key.targets.beside() == Beside::Surfaces {
                 let looks = DynamicBindGroupEntries::new_with_indices(((3, buffers.looks.as_entire_binding()),));
                 entries.extend_from_slice(&looks);
             }
@@ -241,15 +249,14 @@ pub fn draw_geometry(
             depth_ops: Some(Operations { load: LoadOp::Clear(0.0), store: StoreOp::Store }),
             stencil_ops: None,
         };
-        draw(low, None, attachment, None, ground.offsets[2], "horizon_ground_scaled", &pipelines, &mut ctx);
+        draw(low, None, || attachment, None, ground.offsets[2], "horizon_ground_scaled", &pipelines, &mut ctx);
     }
-    let attachment = depth.get_attachment(StoreOp::Store);
     let viewport = target.viewport();
     let textures = prepass.filter(|_| geometry.whole.key.targets.any());
     draw(
         &geometry.whole,
         textures,
-        attachment,
+        || depth.get_attachment(StoreOp::Store),
         viewport.as_ref(),
         ground.offsets[0],
         "horizon_ground",
@@ -266,10 +273,11 @@ pub fn draw_geometry(
     }
 }
 
-fn draw(
+/// The attachment is asked for late: it is cleared where it is asked for first, and a pipeline that still compiles clears nothing.
+fn draw<'a>(
     draw: &Draw,
     textures: Option<&ViewPrepassTextures>,
-    depth: RenderPassDepthStencilAttachment,
+    depth: impl FnOnce() -> RenderPassDepthStencilAttachment<'a>,
     viewport: Option<&Viewport>,
     offset: u32,
     label: &'static str,
@@ -287,7 +295,7 @@ fn draw(
     let mut pass = ctx.begin_tracked_render_pass(RenderPassDescriptor {
         label: Some(label),
         color_attachments: &colours,
-        depth_stencil_attachment: Some(depth),
+        depth_stencil_attachment: Some(depth()),
         timestamp_writes: None,
         occlusion_query_set: None,
         multiview_mask: None,

@@ -4,7 +4,7 @@
 use bevy::core_pipeline::deferred::copy_lighting_id::DeferredLightingIdDepthTexture;
 use bevy::core_pipeline::prepass::DeferredPrepass;
 use bevy::ecs::query::QueryData;
-use bevy::pbr::deferred::DeferredLightingLayout;
+use bevy::pbr::deferred::{DeferredLightingLayout, DeferredLightingPipeline};
 use bevy::pbr::{MeshPipelineKey, MeshViewBindGroup, ViewKeyCache};
 use bevy::platform::collections::HashMap;
 use bevy::prelude::*;
@@ -94,6 +94,9 @@ impl ShadePipelines {
                 let of_deferred =
                     |def: &ShaderDefVal| matches!(def, ShaderDefVal::Bool(name, _) if name.starts_with("DEFERRED_"));
                 fragment.shader_defs.retain(|def| !of_deferred(def));
+                if multisampled {
+                    fragment.shader_defs.push("MULTISAMPLED".into());
+                }
                 descriptor.vertex.shader_defs.retain(|def| !of_deferred(def));
             }
             cache.queue_render_pipeline(descriptor)
@@ -145,6 +148,10 @@ pub fn prepare_shade(
         let air = matches!(ground.sky, Some(ViewSky::Air { .. }));
         let variant = Variant { deferred, multisampled: msaa.samples() > 1, air };
         let pipeline = pipelines.get(&cache, bevy, key, variant);
+        if deferred && cache.get_render_pipeline(pipeline).is_some() {
+            // Bevy's own pass, which it asks for in each frame, would light the same once more. Until ours is there, it does.
+            commands.entity(entity).remove::<DeferredLightingPipeline>();
+        }
         commands.entity(entity).insert(ViewShade { variant, pipeline, group: None });
     }
 }

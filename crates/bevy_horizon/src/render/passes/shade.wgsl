@@ -24,15 +24,22 @@ fn bevy_point(p: vec3<f32>) -> vec4<f32> {
     return vec4<f32>(bevy_bindings::view.world_position + (p - view.eye), 1.0);
 }
 
-// The part of the sun's disc that the ground leaves to a point; all where nothing is known.
-fn sun_over_ground(p: vec3<f32>) -> f32 {
+// The part of the sun's disc that the ground leaves to a point, and, in the penumbra, how high that is; all where nothing is known.
+fn sun_over_ground(p: vec3<f32>) -> vec2<f32> {
+    if (view.self_shadow == 2u && !daylight_is_own()) {
+        return vec2<f32>(0.0);
+    }
     let level = level_at(p.xz);
-    if (view.self_shadow == 0u || level >= clipmap.count) {
-        return 1.0;
+    if (view.self_shadow != 1u || level >= clipmap.count) {
+        return vec2<f32>(1.0, 0.0);
     }
     // What lies on the drawn ground within its rounding stands on it.
     let above = p.y - ground_height(level, p.xz) - 1e-3 - 1e-5 * distance(p, view.eye);
-    return sun_seen_from(level, p.xz, above);
+    let seen = sun_seen_from(level, p.xz, above);
+    if (seen <= 0.0 || seen >= 1.0) {
+        return vec2<f32>(seen, 0.0);
+    }
+    return vec2<f32>(seen, penumbra_at(level, p.xz));
 }
 
 // The scene's sun among Bevy's directional lights; their count where it is not there.
@@ -74,8 +81,8 @@ fn lighting_input(pbr: bevy_types::PbrInput) -> bevy_lighting::LightingInput {
     return input;
 }
 
-// How much of the sun Bevy's shadow map and contact shadows leave.
-fn sun_in_cascades(pbr: bevy_types::PbrInput, i: u32) -> f32 {
+// How much of the sun Bevy's shadow map and contact shadows leave to a point over the surface.
+fn sun_in_cascades(pbr: bevy_types::PbrInput, i: u32, above: f32) -> f32 {
     let flags = bevy_bindings::lights.directional_lights[i].flags;
     if ((pbr.flags & bevy_mesh_types::MESH_FLAGS_SHADOW_RECEIVER_BIT) == 0u) {
         return 1.0;
@@ -83,7 +90,8 @@ fn sun_in_cascades(pbr: bevy_types::PbrInput, i: u32) -> f32 {
     var left = 1.0;
     if ((flags & bevy_view_types::DIRECTIONAL_LIGHT_FLAGS_SHADOWS_ENABLED_BIT) != 0u) {
         let view_z = dot(view.back, pbr.world_position.xyz - bevy_bindings::view.world_position);
-        left = bevy_shadows::fetch_directional_shadow(i, pbr.world_position, pbr.world_normal, view_z, pbr.frag_coord.xy);
+        let point = pbr.world_position + vec4<f32>(0.0, above, 0.0, 0.0);
+        left = bevy_shadows::fetch_directional_shadow(i, point, pbr.world_normal, view_z, pbr.frag_coord.xy);
     }
 #ifdef CONTACT_SHADOWS
 #ifdef DEPTH_PREPASS
@@ -103,14 +111,19 @@ fn mended(pbr: bevy_types::PbrInput, p: vec3<f32>) -> vec3<f32> {
     var light = vec3<f32>(0.0);
     var input = lighting_input(pbr);
     let i = sun_index();
-    if (i < bevy_bindings::lights.n_directional_lights) {
+    if (i < bevy_bindings::lights.n_directional_lights && dot(pbr.N, view.sun_towards) > 0.0) {
         let bevy_sun = bevy_bindings::lights.directional_lights[i].color.rgb;
         let receives = (pbr.flags & bevy_mesh_types::MESH_FLAGS_SHADOW_RECEIVER_BIT) != 0u;
-        let seen = select(1.0, sun_over_ground(p), receives);
+        let seen = select(vec2<f32>(1.0, 0.0), sun_over_ground(p), receives);
         let own = daylight_is_own();
-        if (own || seen < 1.0) {
-            let left = sun_in_cascades(pbr, i);
-            let wanted = select(bevy_sun, sunlight_at(p), own) * min(left, seen) - bevy_sun * left;
+        if (own || seen.x < 1.0) {
+            let left = sun_in_cascades(pbr, i, 0.0);
+            // The ground's edge in the map is hard. In its penumbra the map is asked above that edge, and only meshes hide more.
+            var over = left;
+            if (seen.y > 0.0) {
+                over = sun_in_cascades(pbr, i, 2.0 * seen.y);
+            }
+            let wanted = select(bevy_sun, sunlight_at(p), own) * min(over, seen.x) - bevy_sun * left;
             if (any(abs(wanted) > vec3<f32>(0.0))) {
                 var response: vec3<f32>;
                 if (all(bevy_sun > vec3<f32>(1e-3))) {
@@ -130,7 +143,9 @@ fn mended(pbr: bevy_types::PbrInput, p: vec3<f32>) -> vec3<f32> {
         let f0 = bevy_functions::calculate_F0(pbr.material.base_color.rgb, pbr.material.metallic, pbr.material.reflectance);
         let flat_light = bevy_ambient::ambient_light(pbr.world_position, pbr.N, pbr.V, input.layers[0].NdotV, input.diffuse_color,
             f0, pbr.material.perceptual_roughness, pbr.diffuse_occlusion);
-        light += flat_light * (skylight_on(pbr.N) / ambient_colour - vec3<f32>(1.0));
+        // As much as Bevy has it, by the direction that it comes from: `shine` has the sky's for level ground.
+        let level_light = max(skylight_on(vec3<f32>(0.0, 1.0, 0.0)), vec3<f32>(1e-20));
+        light += flat_light * (skylight_on(pbr.N) / level_light - vec3<f32>(1.0));
     }
     return light;
 }

@@ -14,9 +14,13 @@ fn shade(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let at = vec2<i32>(position.xy);
     let depth = depth_at(at, 0);
     let surfaces = textureLoad(bevy_bindings::deferred_prepass_texture, at, 0);
-    let pbr = bevy_deferred::pbr_input_from_deferred_gbuffer(vec4<f32>(position.xy, depth, 0.0), surfaces);
+    var pbr = bevy_deferred::pbr_input_from_deferred_gbuffer(vec4<f32>(position.xy, depth, 0.0), surfaces);
     if ((pbr.material.flags & bevy_types::STANDARD_MATERIAL_FLAGS_UNLIT_BIT) != 0u) {
         return bevy_functions::main_pass_post_lighting_processing(pbr, pbr.material.base_color);
     }
-    return lit(pbr, drawn_point(position, depth), position);
+    // From the eye, not through the world's coordinates: as exact far away.
+    let p = drawn_point(position, depth);
+    pbr.world_position = bevy_point(p);
+    pbr.V = bevy_functions::calculate_view(pbr.world_position, pbr.is_orthographic);
+    return lit(pbr, p, position);
 }

@@ -30,10 +30,8 @@ fn sun_seen_from(level: u32, p: vec2<f32>, above: f32) -> f32 {
     return mix(seen, level_sun(clipmap.levels[level + 1u], p, above), w);
 }
 
-// The drawn ground's height at a point of a level.
-fn ground_height(level: u32, p: vec2<f32>) -> f32 {
+// How high the penumbra is over a point, in metres.
+fn penumbra_at(level: u32, p: vec2<f32>) -> f32 {
     let l = clipmap.levels[level];
-    let at = p * l.per_metre + l.fraction;
-    let f = at - floor(at);
-    return between_corners(corners(l, level, vec2<i32>(floor(at))), f.x, f.y);
+    return unpacked_penumbra(light_word(l, vec2<i32>(floor(p * l.per_metre + l.fraction))));
 }

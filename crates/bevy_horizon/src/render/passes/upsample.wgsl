@@ -1,6 +1,6 @@
 // The ground, found at a lower resolution, brought to the view's. Reverse-z depth is linear over a plane, so where the four
-// found pixels around a pixel lie in one plane, depth is interpolated; where they don't (silhouettes, ridges, pillars), the pixel
-// casts its own ray, and edges stay as sharp as ever. Needs geometry.wgsl.
+// found pixels around a pixel lie in one plane, depth is interpolated, if that comes to lie on the ground; where it does not
+// (silhouettes, ridges, pillars), the pixel casts its own ray, and edges stay as sharp as ever. Needs geometry.wgsl.
 
 @group(0) @binding(8) var drawn_depth: texture_depth_2d;
 
@@ -23,7 +23,12 @@ fn seen_in(pixel: PixelRay, position: vec4<f32>) -> Seen {
     let bent = abs(d.x + d.w - d.y - d.z);
     if (bent < 4.0 * view.pixel * most && least > 0.8 * most) {
         let depth = dot(w, d);
-        return Seen(distance(view_point(ndc_of(position), depth), pixel.start), depth);
+        let t = distance(view_point(ndc_of(position), depth), pixel.start);
+        let p = pixel.ray.origin + pixel.ray.direction * t;
+        let level = level_at(p.xz);
+        if (level < clipmap.count && abs(p.y - ground_height(level, p.xz)) < 5e-3 + 5e-4 * t) {
+            return Seen(t, depth);
+        }
     }
     return seen_by_ray(pixel);
 }

@@ -30,7 +30,7 @@ struct HorizonView {
     rings: vec2<f32>,
     // Towards the sun, wherever it stands.
     sun_towards: vec3<f32>,
-    // 1 where the cache knows how the ground hides the sun.
+    // 1 where the cache knows how the ground hides the sun; 2 where the ground hides all of a sun that is down.
     self_shadow: u32,
     // From the eye's offsets, along the world's axes, to clip space without jitter: now, and in the last frame.
     clip_from_offset: mat4x4<f32>,
