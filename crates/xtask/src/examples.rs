@@ -8,11 +8,12 @@ use std::{env, fs};
 use crate::run::{Failure, Tool, root};
 
 /// Each example, with the options that make it end by itself after a few frames.
-const UNATTENDED: [(&str, &[(&str, &str)]); 7] = [
+const UNATTENDED: [(&str, &[(&str, &str)]); 8] = [
     ("balls", &[("--frames", "3")]),
     ("bench", &[("--frames", "2"), ("--size", "160x90")]),
     ("far_away", &[("--frames", "3")]),
     ("fly_through", &[("--frames", "3"), ("--size", "160x90")]),
+    ("lights", &[("--frames", "3")]),
     ("minimal", &[("--frames", "3")]),
     // A pretended pointer clicks every three frames.
     ("plant", &[("--frames", "8")]),

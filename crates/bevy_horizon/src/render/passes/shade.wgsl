@@ -24,6 +24,11 @@ fn bevy_point(p: vec3<f32>) -> vec4<f32> {
     return vec4<f32>(bevy_bindings::view.world_position + (p - view.eye), 1.0);
 }
 
+// From the eye's own place: through the world's coordinates it would change where Bevy's origin is moved.
+fn towards_eye(p: vec3<f32>) -> vec3<f32> {
+    return select(normalize(view.eye - p), view.back, view.orthographic != 0u);
+}
+
 // The part of the sun's disc that the ground leaves to a point, and, in the penumbra, how high that is; all where nothing is known.
 fn sun_over_ground(p: vec3<f32>) -> vec2<f32> {
     if (view.self_shadow == 2u && !daylight_is_own()) {

@@ -21,6 +21,6 @@ fn shade(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     // From the eye, not through the world's coordinates: as exact far away.
     let p = drawn_point(position, depth);
     pbr.world_position = bevy_point(p);
-    pbr.V = bevy_functions::calculate_view(pbr.world_position, pbr.is_orthographic);
+    pbr.V = towards_eye(p);
     return lit(pbr, p, position);
 }

@@ -28,7 +28,7 @@ fn shade(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
         pbr.world_normal = look.normal;
         pbr.N = look.normal;
         pbr.clearcoat_N = look.normal;
-        pbr.V = bevy_functions::calculate_view(pbr.world_position, pbr.is_orthographic);
+        pbr.V = towards_eye(p);
         return lit(pbr, p, position);
     }
     discard;
