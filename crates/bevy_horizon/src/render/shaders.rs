@@ -195,6 +195,7 @@ fn rays(counted: bool) -> String {
         if counted { COUNTED } else { UNCOUNTED },
         VIEW,
         SURFACE,
+        LOOK,
         include_str!("cache/march.wgsl"),
         include_str!("passes/clear_start.wgsl"),
         include_str!("passes/geometry.wgsl"),
@@ -206,14 +207,14 @@ fn geometry(scaled: bool, surfaces: bool) -> String {
     let rays = rays(false);
     let found = if scaled { include_str!("passes/upsample.wgsl") } else { include_str!("passes/whole.wgsl") };
     if surfaces {
-        [&rays, found, LOOK, MOTION, include_str!("passes/surfaces.wgsl")].join("\n")
+        [&rays, found, MOTION, include_str!("passes/surfaces.wgsl")].join("\n")
     } else {
         [&rays, found, include_str!("passes/depth_alone.wgsl")].join("\n")
     }
 }
 
 fn heat(ldr: bool) -> String {
-    [present(ldr), &rays(true), SUN_SEEN, LOOK, SUNLIT, MOTION, include_str!("passes/heat.wgsl")].join("\n")
+    [present(ldr), &rays(true), SUN_SEEN, SUNLIT, MOTION, include_str!("passes/heat.wgsl")].join("\n")
 }
 
 /// Bevy's groups 0 and 1 come first: ours is 2.
