@@ -1,5 +1,7 @@
 //! Bodies on the ground: collider tiles and net under avian3d, and an origin that moves under both.
 
+mod holes;
+
 use std::time::Duration;
 
 use avian3d::prelude::*;

@@ -1,6 +1,7 @@
 //! The shipped WGSL against the CPU: hashes and lattices bit for bit, fields within a share of their range.
 
 mod bits;
+mod holes;
 mod stamps;
 
 use std::time::Instant;

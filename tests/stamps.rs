@@ -1,5 +1,7 @@
 //! Stamps: picture and answers agree, one that moves is little work, a thousand elsewhere are none.
 
+mod holes;
+
 use bevy::ecs::system::RunSystemOnce;
 use bevy::prelude::*;
 use bevy::render::RenderApp;

@@ -42,8 +42,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {{
             let at = stamps.at(&place);
             // Of another tile, before this one's.
             let mut parts = vec![0; 3 * PART_BYTES];
-            let count = at.append_bytes([0.5 * SIDE; 2], [0.5 * SIDE; 2], cutoff, &mut parts);
-            assert_eq!(parts.len(), (3 + count as usize) * PART_BYTES);
+            let [count, holes] = at.append_bytes([0.5 * SIDE; 2], [0.5 * SIDE; 2], cutoff, &mut parts);
+            assert_eq!((parts.len(), holes), ((3 + count as usize) * PART_BYTES, 0));
             let mut within = |high: f64| random.within(0.0, high) as f32;
             let points: Vec<[f32; 4]> = (0..POINTS).map(|_| [within(SIDE), within(SIDE), 3.0, count as f32]).collect();
             let bases: Vec<[f32; 4]> = (0..POINTS).map(|_| [within(30.0), within(1.0), within(1.0), 0.0]).collect();
@@ -75,4 +75,52 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {{
         "values are apart by {worst:e} m at most, gradients by {steepest:e} of themselves; {moved} points are moved"
     );
     assert!(worst < 1e-3 && moved > POINTS);
+}
+
+#[test]
+fn holes_are_the_cpus() {
+    let source = format!(
+        "{WGSL}
+@group(0) @binding(0) var<storage, read> parts: array<StampPart>;
+@group(0) @binding(1) var<storage, read> points: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read_write> holes: array<u32>;
+
+fn stamp_part(i: u32) -> StampPart {{
+    return parts[i];
+}}
+
+@compute @workgroup_size(64)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {{
+    let p = points[id.x];
+    holes[id.x] = select(0u, 1u, stamp_hole(u32(p.z), u32(p.w), p.xy));
+}}
+"
+    );
+    let mut random = Random::new(52);
+    let (mut inside, mut apart) = (0, 0);
+    for place in [[0.0; 3], [-1e9, 0.0, 1e9]].map(Place::from_metres) {
+        for cutoff in CUTOFFS {
+            let middle = place.translated([0.5 * SIDE, 0.0, 0.5 * SIDE]);
+            let stamps = (0..20).map(|_| arbitrary::stamp(&mut random, &middle, SIDE, 8.0));
+            let mut stamps: Vec<_> = stamps.collect();
+            stamps.extend((0..20).map(|_| arbitrary::hole(&mut random, &middle, 0.5 * SIDE, 12.0)));
+            let stamps = Stamps::compile(&stamps).unwrap();
+            let at = stamps.at(&place);
+            let mut parts = Vec::new();
+            let [first, count] = at.append_bytes([0.5 * SIDE; 2], [0.5 * SIDE; 2], cutoff, &mut parts);
+            let mut within = || random.within(0.0, SIDE) as f32;
+            let points: Vec<[f32; 4]> = (0..POINTS).map(|_| [within(), within(), first as f32, count as f32]).collect();
+            let groups: [&[&[u8]]; 1] = [&[&parts, bytemuck::cast_slice(&points)]];
+            let bytes = device::run(&source, &groups, 4 * POINTS, POINTS as u32 / 64);
+            let found: &[u32] = bytemuck::cast_slice(&bytes);
+            for (point, found) in points.iter().zip(found) {
+                let expected = at.is_hole([point[0], point[1]], cutoff as f32);
+                inside += usize::from(expected);
+                apart += usize::from(expected != (*found == 1));
+            }
+        }
+    }
+    println!("{inside} points lie in holes, {apart} are apart");
+    // A device may round an edge otherwise.
+    assert!(inside > POINTS && apart < 4);
 }

@@ -24,6 +24,9 @@ use crate::world::{CompiledStamps, CompiledTerrain, WorldOrigin};
 ///
 /// A terrain answers from the frame after it was spawned. Where there are several, the first one answers: ask
 /// [`HorizonQuery::ground`] for one of them.
+///
+/// In a hole, which [`Mode::Hole`](horizon_field::stamp::Mode::Hole) cuts, there is no ground: height, normal and slope are `None` there, and
+/// rays go through. Under the ground a ray does not meet its underside: only once it has come out, it may meet ground again, from above.
 #[derive(SystemParam)]
 pub struct HorizonQuery<'w, 's> {
     terrains:
@@ -36,7 +39,7 @@ pub struct HorizonQuery<'w, 's> {
 pub struct GroundHit {
     /// The terrain.
     pub entity: Entity,
-    /// Distance along the ray, in metres; 0 where the ray starts under the ground.
+    /// Distance along the ray, in metres; 0 where the ray starts under the ground. (Under ground that has holes it goes on.)
     pub distance: f32,
     /// The point, in Bevy's coordinates.
     pub position: Vec3,
@@ -71,24 +74,30 @@ impl HorizonQuery<'_, '_> {
         Some(Ground { entity, surface, translation, datum })
     }
 
-    /// The ground's height under or over a position, in Bevy's coordinates; `None` without a terrain.
-    pub fn height(&self, position: Vec3) -> Option<f32> {
-        Some(self.ground(None)?.height(position))
+    /// The first terrain, where it has ground.
+    fn solid(&self, position: Vec3) -> Option<Ground<'_>> {
+        self.ground(None).filter(|ground| !ground.is_hole(position))
     }
 
-    /// The ground's heights at many positions; empty without a terrain.
+    /// The ground's height under or over a position, in Bevy's coordinates; `None` in a hole, or without a terrain.
+    pub fn height(&self, position: Vec3) -> Option<f32> {
+        Some(self.solid(position)?.height(position))
+    }
+
+    /// The ground's heights at many positions; empty without a terrain. In holes they are those of the ground that would be
+    /// there: see [`Ground::is_hole`].
     pub fn heights(&self, positions: &[Vec3]) -> Vec<f32> {
         self.ground(None).map_or_else(Vec::new, |ground| ground.heights(positions))
     }
 
-    /// The ground's unit normal at a position; `None` without a terrain.
+    /// The ground's unit normal at a position; `None` in a hole, or without a terrain.
     pub fn normal(&self, position: Vec3) -> Option<Vec3> {
-        Some(self.ground(None)?.normal(position))
+        Some(self.solid(position)?.normal(position))
     }
 
-    /// The ground's slope at a position, as the tangent of its angle; `None` without a terrain.
+    /// The ground's slope at a position, as the tangent of its angle; `None` in a hole, or without a terrain.
     pub fn slope(&self, position: Vec3) -> Option<f32> {
-        Some(self.ground(None)?.slope(position))
+        Some(self.solid(position)?.slope(position))
     }
 
     /// Where a ray first meets the ground, certified: no ridge is stepped over. `None` where it does not within
@@ -107,6 +116,17 @@ impl HorizonQuery<'_, '_> {
 impl Ground<'_> {
     fn local(&self, position: Vec3) -> [f64; 2] {
         [f64::from(position.x) - self.translation[0], f64::from(position.z) - self.translation[2]]
+    }
+
+    /// Whether there are holes anywhere in it.
+    pub fn has_holes(&self) -> bool {
+        self.surface.has_holes()
+    }
+
+    /// Whether there is no ground at a position, by a [`Mode::Hole`](horizon_field::stamp::Mode::Hole). Heights, normals and slopes are there
+    /// those of the ground that would be.
+    pub fn is_hole(&self, position: Vec3) -> bool {
+        self.surface.is_hole(self.local(position))
     }
 
     /// The ground's height at a position, in Bevy's coordinates.
@@ -134,7 +154,8 @@ impl Ground<'_> {
         x.hypot(z) as f32
     }
 
-    /// How far plants are kept away from a position, from 0 (not at all) to 1, by stamps of [`Mode::KeepTrees`](horizon_field::stamp::Mode).
+    /// How far plants are kept away from a position, from 0 (not at all) to 1, by stamps of [`Mode::KeepTrees`](horizon_field::stamp::Mode),
+    /// and in holes.
     pub fn clearing(&self, position: Vec3) -> f32 {
         self.surface.clearing(self.local(position)) as f32
     }

@@ -6,8 +6,11 @@
 //! in t, so its two ends decide. What can't be decided is shortened, as in interval ray tracing (Mitchell, "Robust ray
 //! intersection with interval arithmetic", Graphics Interface 1990); where the bound of f' has one sign the crossing is
 //! unique, and Newton's method finds it.
+//!
+//! Where a hole takes the ground away, the same march goes on under it, upside down, until the ray comes out.
 
 mod beam;
+mod holes;
 mod ray;
 mod stretch;
 mod surface;
@@ -16,6 +19,8 @@ mod surface;
 mod field_tests;
 #[cfg(test)]
 pub(crate) mod fixtures;
+#[cfg(test)]
+mod hole_tests;
 #[cfg(test)]
 mod stamp_tests;
 #[cfg(test)]
@@ -47,7 +52,7 @@ pub enum Cast {
     Hit(Hit),
     /// The ray stays above the ground.
     Miss,
-    /// The ray starts on or under the ground.
+    /// The ray starts on or under the ground. Where that has holes, such a ray goes on, and may come out.
     Inside,
 }
 
@@ -117,6 +122,9 @@ const MOST_GRAZES: u64 = 1 << 12;
 ///
 /// No crossing is passed over, but for one whose way under the ground is shorter than the tolerance. A ray that runs
 /// along the ground, nearer to it than bounds can tell, is a hit where that begins to last. Any input ends.
+///
+/// Through a hole a ray goes on under the ground, whose underside it does not meet: only once it has come out, through a hole or
+/// not, may it meet the ground again, from above.
 pub fn cast(surface: &impl Surface, ray: &Ray, t_max: f64, tolerance: Tolerance, counts: &mut Counts) -> Cast {
     cast_from(surface, ray, [0.0, t_max], tolerance, counts)
 }
@@ -129,26 +137,66 @@ pub(crate) fn cast_from(
     tolerance: Tolerance,
     counts: &mut Counts,
 ) -> Cast {
+    let budget = Budget::new(counts);
+    let reach = [start, t_max];
+    let inside = start == 0.0 && starts_inside(surface, ray, counts);
+    let hit = if surface.has_holes() {
+        holes::meet_through(surface, ray, reach, !inside, tolerance, &budget, counts)
+    } else if inside {
+        return Cast::Inside;
+    } else {
+        meet(surface, ray, reach, tolerance, &budget, counts)
+    };
+    hit.map_or(Cast::Miss, Cast::Hit)
+}
+
+/// Whether a ray starts on or under the ground.
+fn starts_inside(surface: &impl Surface, ray: &Ray, counts: &mut Counts) -> bool {
+    if ray.origin()[1] > surface.range().1 {
+        return false;
+    }
+    counts.jets += 1;
+    ray.clearance(surface, 0.0).f <= 0.0
+}
+
+/// When a cast has used up its bounds or grazes.
+struct Budget {
+    bounds: u64,
+    grazes: u64,
+}
+
+impl Budget {
+    fn new(counts: &Counts) -> Self {
+        Self { bounds: counts.bounds + MOST_BOUNDS, grazes: counts.grazes + MOST_GRAZES }
+    }
+
+    fn is_spent(&self, counts: &Counts) -> bool {
+        counts.bounds >= self.bounds || counts.grazes >= self.grazes
+    }
+}
+
+/// Where a ray that is above the ground at `start` first meets it, holes or not.
+fn meet(
+    surface: &impl Surface,
+    ray: &Ray,
+    [start, t_max]: [f64; 2],
+    tolerance: Tolerance,
+    budget: &Budget,
+    counts: &mut Counts,
+) -> Option<Hit> {
     let (_, high) = surface.range();
     // `min` also takes the farthest where `t_max` is NaN.
-    let Some([first, end]) = ray.below(high, t_max.min(FARTHEST)) else { return Cast::Miss };
+    let [first, end] = ray.below(high, t_max.min(FARTHEST))?;
     let mut t = first.max(start);
-    if t == 0.0 {
-        counts.jets += 1;
-        if ray.clearance(surface, 0.0).f <= 0.0 {
-            return Cast::Inside;
-        }
-    }
     // A beam ends near the ground, where long stretches are tried in vain.
     let mut step = if t == start && t > 0.0 { 0.03 * t } else { end - t };
-    let (bounds_end, grazes_end) = (counts.bounds + MOST_BOUNDS, counts.grazes + MOST_GRAZES);
-    // Invariant: f > 0 on [0, t], up to grazes.
+    // Invariant: f > 0 on [start, t], up to grazes.
     while t < end {
         let shortest = tolerance.at(t);
         step = step.max(shortest).min(end - t);
         let next = t + step;
-        if counts.bounds >= bounds_end || counts.grazes >= grazes_end {
-            return Cast::Hit(hit(ray, t, &ray.clearance(surface, t)));
+        if budget.is_spent(counts) {
+            return Some(hit(ray, t, &ray.clearance(surface, t)));
         }
         counts.bounds += 1;
         let Stretch { clear, shrink, slope } = Stretch::bound(surface, &[ray.at(t)], &[ray.at(next)]);
@@ -162,7 +210,7 @@ pub(crate) fn cast_from(
             counts.jets += 1;
             let there = ray.clearance(surface, next);
             if there.f <= 0.0 {
-                return Cast::Hit(refine(surface, ray, [t, next], there, counts));
+                return Some(refine(surface, ray, [t, next], there, counts));
             }
             counts.grazes += u64::from(slope[1] >= 0.0);
             t = next;
@@ -174,7 +222,7 @@ pub(crate) fn cast_from(
             step *= shrink;
         }
     }
-    Cast::Miss
+    None
 }
 
 /// How much longer the next stretch is tried after one that was clear.

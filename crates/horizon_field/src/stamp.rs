@@ -10,6 +10,9 @@
 //! outside: the ground keeps a continuous gradient, and its curvature stays bounded. A path is cut into straight parts:
 //! W is that of the nearest one, and Y the mean of the parts' planes, by how whole each is, so that no two of them meet
 //! in a step.
+//!
+//! A hole has no part in that: the height is what it would be without, and within the shape there is no ground. What comes from
+//! above goes in there, and what is under the ground does not meet it until it has come out, there or elsewhere.
 
 mod bound;
 mod edit;

@@ -1,6 +1,6 @@
 //! The field's heights as colliders: the one way that they take.
 
-use avian3d::parry::shape::{HeightFieldFlags, SharedShape};
+use avian3d::parry::shape::{HeightField, HeightFieldCellStatus, HeightFieldFlags, SharedShape};
 use avian3d::parry::utils::Array2;
 use avian3d::prelude::Collider;
 use bevy::prelude::*;
@@ -20,7 +20,7 @@ pub fn tile_heights(ground: &Ground, centre: Vec3, side: f32, cells: u32) -> Vec
 /// triangles each, whose corners lie on the field. `None` where a height is not finite, or without an extent.
 ///
 /// It is a surface without thickness. Contacts push upwards alone, and edges between its triangles do not trip what rolls
-/// over them.
+/// over them. Cells whose middle lies in a hole are not there.
 pub fn ground_collider(ground: &Ground, centre: Vec3, side: f32, cells: u32) -> Option<Collider> {
     let cells = cells.max(1);
     if !(centre.is_finite() && side.is_finite() && side > 0.0) {
@@ -34,6 +34,15 @@ pub fn ground_collider(ground: &Ground, centre: Vec3, side: f32, cells: u32) -> 
     // Parry's rows run along z, and its arrays are stored column by column.
     let corners = cells as usize + 1;
     let heights = Array2::new(corners, corners, heights);
-    let flags = HeightFieldFlags::FIX_INTERNAL_EDGES;
-    Some(SharedShape::heightfield_with_flags(heights, Vec3::new(side, 1.0, side), flags).into())
+    let mut field = HeightField::with_flags(heights, Vec3::new(side, 1.0, side), HeightFieldFlags::FIX_INTERNAL_EDGES);
+    if ground.has_holes() {
+        let at = |i: u32| side * ((i as f32 + 0.5) / cells as f32 - 0.5);
+        for (i, j) in (0..cells).flat_map(|i| (0..cells).map(move |j| (i, j))) {
+            // Rows run along z here too.
+            if ground.is_hole(centre + Vec3::new(at(j), 0.0, at(i))) {
+                field.set_cell_status(i as usize, j as usize, HeightFieldCellStatus::CELL_REMOVED);
+            }
+        }
+    }
+    Some(SharedShape::new(field).into())
 }

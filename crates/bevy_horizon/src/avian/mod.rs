@@ -29,6 +29,9 @@
 //! faster or smaller a `SweptCcd`. Under all that lies a net: a dynamic body whose centre of mass is under the ground after a
 //! step is put back onto it, and a [`BodyLifted`] says so. [`Underground`] bodies are left alone.
 //!
+//! Where a [`Stamp`](crate::world::Stamp) cuts a hole, tiles have none of the cells whose middle lies in it, and the net leaves alone
+//! what falls in, until it comes out again. What starts out in a cellar is to be [`Underground`].
+//!
 //! Tiles are made for bodies high above the ground too.
 
 mod heights;

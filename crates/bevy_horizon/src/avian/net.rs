@@ -4,13 +4,18 @@ use avian3d::prelude::*;
 use bevy::prelude::*;
 
 use super::settings::TileSettings;
-use crate::query::HorizonQuery;
+use crate::query::{Ground, HorizonQuery};
 use crate::world::CompiledTerrain;
 
-/// A body that may be under the ground, in a mine or a tunnel: the safety net leaves it alone.
+/// A body that may be under the ground, in a mine or a tunnel: the safety net leaves it alone. What went into the ground through a hole
+/// needs none, until it comes out.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Reflect)]
 #[reflect(Component, Default, Clone, PartialEq)]
 pub struct Underground;
+
+/// A body went into the ground through a hole, and has not come out.
+#[derive(Component)]
+pub(super) struct ThroughHole;
 
 /// A body's centre of mass was under the ground, and the body was put back onto it.
 #[derive(Message, Clone, Copy, Debug, PartialEq)]
@@ -34,9 +39,18 @@ type Poses<'w, 's> = Query<
         &'static Rotation,
         &'static ComputedCenterOfMass,
         &'static RigidBodyColliders,
+        Has<ThroughHole>,
     ),
     Falling,
 >;
+
+/// A dynamic body, as the net sees it.
+struct Dynamic<'a> {
+    body: Entity,
+    centre: Vec3,
+    colliders: &'a RigidBodyColliders,
+    through_hole: bool,
+}
 
 /// Where a body goes that is under the ground.
 struct Lift {
@@ -47,8 +61,9 @@ struct Lift {
 }
 
 /// Puts dynamic bodies whose centre of mass is under the ground back onto it, and takes from them the velocity into it.
-/// Where grounds lie over each other, the lowest counts.
+/// Where grounds lie over each other, the lowest counts. In a hole there is nothing to be put back onto.
 pub(super) fn lift_bodies(
+    mut commands: Commands,
     settings: Res<TileSettings>,
     world: HorizonQuery,
     terrains: Query<Entity, With<CompiledTerrain>>,
@@ -62,7 +77,8 @@ pub(super) fn lift_bodies(
         return;
     }
     let (poses, colliders) = bodies.p0();
-    let lifts = sunk(&world, &terrains, &poses, &colliders);
+    let half_cell = 0.5 * settings.side / settings.cells.max(1) as f32;
+    let lifts = sunk(&mut commands, &world, &terrains, &poses, &colliders, half_cell);
     let mut bodies = bodies.p1();
     for Lift { body, depth, by, normal } in lifts {
         let Ok((mut position, mut velocity)) = bodies.get_mut(body) else { continue };
@@ -74,17 +90,22 @@ pub(super) fn lift_bodies(
 }
 
 fn sunk(
+    commands: &mut Commands,
     world: &HorizonQuery,
     terrains: &Query<Entity, With<CompiledTerrain>>,
     poses: &Poses,
     colliders: &Query<(&Collider, &Position, &Rotation)>,
+    half_cell: f32,
 ) -> Vec<Lift> {
     let dynamic = poses.iter().filter(|(_, body, ..)| body.is_dynamic());
-    let centres: Vec<_> = dynamic
-        .map(|(body, _, position, rotation, centre, of_body)| (body, position.0 + rotation.0 * centre.0, of_body))
-        .filter(|(_, centre, _)| centre.is_finite())
+    let bodies: Vec<Dynamic> = dynamic
+        .map(|(body, _, position, rotation, centre, colliders, through_hole)| {
+            let centre = position.0 + rotation.0 * centre.0;
+            Dynamic { body, centre, colliders, through_hole }
+        })
+        .filter(|dynamic| dynamic.centre.is_finite())
         .collect();
-    let positions: Vec<Vec3> = centres.iter().map(|(_, centre, _)| *centre).collect();
+    let positions: Vec<Vec3> = bodies.iter().map(|dynamic| dynamic.centre).collect();
     let mut lowest: Vec<(f32, Option<Entity>)> = vec![(f32::INFINITY, None); positions.len()];
     for terrain in terrains {
         let Some(ground) = world.ground(Some(terrain)) else { continue };
@@ -95,10 +116,17 @@ fn sunk(
         }
     }
     let mut lifts = Vec::new();
-    for ((body, centre, of_body), (height, terrain)) in centres.into_iter().zip(lowest) {
+    for (dynamic, (height, terrain)) in bodies.into_iter().zip(lowest) {
+        let Dynamic { body, centre, colliders: of_body, through_hole } = dynamic;
         let Some(ground) = terrain.and_then(|terrain| world.ground(Some(terrain))) else { continue };
         let depth = height - centre.y;
-        if depth > 0.0 {
+        let beneath_hole = depth > 0.0 && ground.has_holes() && (through_hole || over_hole(&ground, centre, half_cell));
+        if through_hole && !beneath_hole {
+            commands.entity(body).try_remove::<ThroughHole>();
+        } else if beneath_hole && !through_hole {
+            commands.entity(body).try_insert(ThroughHole);
+        }
+        if depth > 0.0 && !beneath_hole {
             let bottoms = of_body
                 .into_iter()
                 .filter_map(|collider| colliders.get(collider).ok())
@@ -108,4 +136,11 @@ fn sunk(
         }
     }
     lifts
+}
+
+/// Whether a position may lie in a cell that tiles lack for a hole.
+fn over_hole(ground: &Ground, position: Vec3, half_cell: f32) -> bool {
+    let sides = [-half_cell, half_cell];
+    ground.is_hole(position)
+        || sides.iter().any(|x| sides.iter().any(|z| ground.is_hole(position + Vec3::new(*x, 0.0, *z))))
 }

@@ -43,8 +43,8 @@ pub enum Source {
     Heat { ldr: bool },
     /// Light on the ground, or on a G-buffer; under air that makes it.
     Shade { deferred: bool, multisampled: bool, air: bool },
-    /// The ground in shadow maps.
-    Cast,
+    /// The ground in shadow maps; with holes in it.
+    Cast { holes: bool },
     /// The simplest air.
     Gradient { ldr: bool, multisampled: bool },
     /// The air by a model that has tables.
@@ -74,8 +74,8 @@ const EITHER: [bool; 2] = [false, true];
 impl Source {
     /// All of them.
     fn all() -> Vec<Self> {
-        let mut all =
-            vec![Self::Pyramid, Self::Light, Self::Clearance, Self::Cast, Self::Transmittance, Self::Isotropic];
+        let mut all = vec![Self::Pyramid, Self::Light, Self::Clearance, Self::Transmittance, Self::Isotropic];
+        all.extend(EITHER.map(|holes| Self::Cast { holes }));
         all.extend(EITHER.map(|first| Self::Moments { first }));
         all.extend(MODELS.map(|model| Self::ViewTables { model }));
         for a in EITHER {
@@ -106,7 +106,7 @@ impl Source {
             Self::Isotropic => 0x04,
             Self::Moments { first } => 0x06 + bits(&[first]),
             Self::ViewTables { model } => 0x08 + model as u128,
-            Self::Cast => 0x05,
+            Self::Cast { holes } => 0x0c + bits(&[holes]),
             Self::Geometry { scaled, beside } => 0x0e + 3 * bits(&[scaled]) + beside as u128,
             Self::Heat { ldr } => 0x14 + bits(&[ldr]),
             Self::Shade { deferred, multisampled, air } => 0x18 + bits(&[deferred, multisampled, air]),
@@ -126,7 +126,8 @@ impl Source {
             Self::Pyramid => "pyramid",
             Self::Light => "light",
             Self::Clearance => "clearance",
-            Self::Cast => "cast",
+            Self::Cast { holes: false } => "cast",
+            Self::Cast { holes: true } => "cast_holes",
             Self::Geometry { scaled: false, beside: Beside::Nothing } => "geometry",
             Self::Geometry { scaled: false, beside: Beside::Motion } => "geometry_motion",
             Self::Geometry { scaled: false, beside: Beside::Surfaces } => "geometry_surfaces",
@@ -153,7 +154,10 @@ impl Source {
             Self::Pyramid => [SURFACE, include_str!("cache/pyramid.wgsl")].join("\n"),
             Self::Light => [SURFACE, SUN_SEEN, include_str!("cache/light.wgsl")].join("\n"),
             Self::Clearance => [VIEW, SURFACE, include_str!("passes/clearance.wgsl")].join("\n"),
-            Self::Cast => [SURFACE, include_str!("passes/cast.wgsl")].join("\n"),
+            Self::Cast { holes: false } => [SURFACE, include_str!("passes/cast.wgsl")].join("\n"),
+            Self::Cast { holes: true } => {
+                [SURFACE, LOOK, include_str!("passes/cast.wgsl"), include_str!("passes/cast_holes.wgsl")].join("\n")
+            }
             Self::Geometry { scaled, beside } => geometry(scaled, beside),
             Self::Heat { ldr } => heat(ldr),
             Self::Shade { deferred, multisampled, air } => shade(deferred, multisampled, air),
@@ -207,6 +211,7 @@ fn rays(counted: bool) -> String {
         if counted { COUNTED } else { UNCOUNTED },
         VIEW,
         SURFACE,
+        LOOK,
         include_str!("cache/march.wgsl"),
         include_str!("passes/clear_start.wgsl"),
         include_str!("passes/geometry.wgsl"),
@@ -220,12 +225,12 @@ fn geometry(scaled: bool, beside: Beside) -> String {
     match beside {
         Beside::Nothing => [&rays, found, include_str!("passes/depth_alone.wgsl")].join("\n"),
         Beside::Motion => [&rays, found, MOTION, include_str!("passes/depth_motion.wgsl")].join("\n"),
-        Beside::Surfaces => [&rays, found, LOOK, MOTION, include_str!("passes/surfaces.wgsl")].join("\n"),
+        Beside::Surfaces => [&rays, found, MOTION, include_str!("passes/surfaces.wgsl")].join("\n"),
     }
 }
 
 fn heat(ldr: bool) -> String {
-    [present(ldr), &rays(true), SUN_SEEN, LOOK, SUNLIT, MOTION, include_str!("passes/heat.wgsl")].join("\n")
+    [present(ldr), &rays(true), SUN_SEEN, SUNLIT, MOTION, include_str!("passes/heat.wgsl")].join("\n")
 }
 
 /// Bevy's groups 0 and 1 come first: ours is 2.

@@ -116,6 +116,7 @@ pub struct HorizonViewUniform {
     pub slopes: Vec2,
     pub columns: UVec3,
     pub rings: Vec2,
+    pub holes: u32,
     pub sun_towards: Vec3,
     pub self_shadow: u32,
     pub clip_from_offset: Mat4,

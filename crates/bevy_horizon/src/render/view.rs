@@ -151,6 +151,7 @@ pub fn prepare_views(
             slopes: table.slopes,
             columns: table.columns,
             rings: table.rings,
+            holes: u32::from(ground.cache.is_some_and(|cache| caches.0[cache].holes())),
             sun_towards: world.sun.map_or(Vec3::Y, |sun| sun.direction),
             self_shadow: world.self_shadow(),
             clip_from_offset: now.clip_from_offset,

@@ -10,12 +10,17 @@ use horizon_field::{Place, Stamps};
 
 use super::{CompiledTerrain, WorldOrigin};
 
-/// A local edit of the ground: it raises, lowers or levels it, so that a house stands level and a road lies smooth, in the
-/// picture and in all answers alike. Of a [`Terrain`](super::Terrain) that is this entity or stands above it, or else of every terrain.
+/// A local edit of the ground: it raises, lowers or levels it, so that a house stands level and a road lies smooth, or cuts a hole into
+/// it, for a cellar, in the picture and in all answers alike. Of a [`Terrain`](super::Terrain) that is this entity or stands above it, or else of every terrain.
 ///
 /// The entity's `GlobalTransform` says where: its translation, and its rotation about y; [`Mode::Flatten`] levels the
 /// ground to its y. It needs Bevy's `TransformPlugin`. When [`WorldOrigin`] moves and the game shifts the entity by as much, the
 /// stamp stays where it is. Give it a [`StampPlace`], and it is there, wherever the origin is.
+///
+/// Through a hole ([`Mode::Hole`]) one sees what the game put there: meshes of walls and a floor; without any, the sky. The ground's
+/// underside is not there, neither to the eye nor to rays. The edge is drawn in steps of a texel, which is as large as a pixel far
+/// away, and 3 cm near by: a frame of meshes hides it. Holes in the ground let the sun through in Bevy's shadow maps; in a mesh's place
+/// under the ground, beyond their reach, the sun shines as on the ground above.
 ///
 /// ```no_run
 /// # use bevy::prelude::*;

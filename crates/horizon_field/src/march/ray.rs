@@ -53,6 +53,12 @@ impl Ray {
         core::array::from_fn(|axis| self.origin[axis] + t * self.direction[axis])
     }
 
+    /// The ray upside down.
+    pub(super) fn mirrored(&self) -> Self {
+        let upside_down = |[x, y, z]: [f64; 3]| [x, -y, z];
+        Self { origin: upside_down(self.origin), direction: upside_down(self.direction) }
+    }
+
     /// The interval of t in `[0, t_max]` on which the ray is not above `high`; `None` if there is none.
     pub(super) fn below(&self, high: f64, t_max: f64) -> Option<[f64; 2]> {
         // A hair more than the range, so that the rounding of the two quotients cuts nothing off.

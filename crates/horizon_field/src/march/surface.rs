@@ -16,6 +16,16 @@ pub trait Surface {
     /// The lowest and the highest that the ground can be, anywhere, in metres.
     fn range(&self) -> (f64, f64);
 
+    /// Whether there are holes in the ground. Then a ray may start under it.
+    fn has_holes(&self) -> bool {
+        false
+    }
+
+    /// Whether there is no ground at `q`: a ray goes through the height field there.
+    fn is_hole(&self, _q: [f64; 2]) -> bool {
+        false
+    }
+
     /// The unit normal at `q`, pointing up.
     fn normal(&self, q: [f64; 2]) -> [f64; 3] {
         normal(self.jet(q).g)
@@ -47,7 +57,7 @@ impl<'a> Anchored<'a> {
         Self { stamps: Some(stamps.at(place)), ..Self::new(compiled, place) }
     }
 
-    /// The height at `q`, in metres.
+    /// The height at `q`, in metres; in a hole, that of the ground that would be there.
     pub fn value(&self, q: [f64; 2]) -> f64 {
         let height = self.compiled.value_f64(&self.anchors, q, 0.0);
         match &self.stamps {
@@ -97,5 +107,13 @@ impl Surface for Anchored<'_> {
     fn range(&self) -> (f64, f64) {
         let range = self.compiled.range();
         self.stamps.as_ref().map_or(range, |stamps| stamps.stamps().range(range))
+    }
+
+    fn has_holes(&self) -> bool {
+        self.stamps.as_ref().is_some_and(|stamps| stamps.stamps().has_holes())
+    }
+
+    fn is_hole(&self, q: [f64; 2]) -> bool {
+        self.stamps.as_ref().is_some_and(|stamps| stamps.is_hole(q, 0.0))
     }
 }

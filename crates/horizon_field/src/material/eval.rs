@@ -167,12 +167,13 @@ impl Layer {
 
 impl Look<f32> {
     /// The four bytes that a cache keeps of the look, at this texel of its tile: the albedo as its square root, 8 bits each,
-    /// then roughness in five bits over reflectance in three, which are rounded by lot.
+    /// then roughness in five bits over reflectance in three, which are rounded by lot. The roughness is 1 at least: a cache writes 0
+    /// where there is a hole.
     pub fn packed(&self, texel: [u32; 2]) -> u32 {
         let lot = pcg(pcg(texel[0].wrapping_add(texel[1] << 6)));
         let part = |x: f32, steps: f32, lot: u32| (x * steps + lot as f32 / 65_536.0).floor().clamp(0.0, steps) as u32;
         let (roughness, reflectance) =
-            (part(self.roughness, 31.0, lot & 0xffff), part(self.reflectance, 7.0, lot >> 16));
+            (part(self.roughness, 31.0, lot & 0xffff).max(1), part(self.reflectance, 7.0, lot >> 16));
         let [r, g, b] = self.albedo.map(|x| (x.clamp(0.0, 1.0).sqrt() * 255.0 + 0.5).floor() as u32);
         r | (g << 8) | (b << 16) | (((roughness << 3) | reflectance) << 24)
     }

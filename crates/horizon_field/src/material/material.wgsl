@@ -215,12 +215,13 @@ fn material_at(anchor: u32, q: vec2<f32>, texel: f32, cutoff: f32, jet: vec3<f32
 }
 
 // Four bytes: the albedo as its square root, so that dark colours keep their steps; then roughness in five bits over
-// reflectance in three, rounded by lot, which is the same in every tile: smooth ground shows no steps.
+// reflectance in three, rounded by lot, which is the same in every tile: smooth ground shows no steps. The five bits are 1 at least: a
+// cache writes 0 where there is a hole.
 fn material_packed(look: MaterialLook, texel: vec2<u32>) -> u32 {
     let lot = pcg(pcg(texel.x + (texel.y << 6u)));
     let dither = vec2<f32>(f32(lot & 0xffffu), f32(lot >> 16u)) / 65536.0;
     let steps = vec2<f32>(31.0, 7.0);
-    let parts = vec2<u32>(clamp(floor(vec2<f32>(look.roughness, look.reflectance) * steps + dither), vec2<f32>(0.0), steps));
+    let parts = vec2<u32>(clamp(floor(vec2<f32>(look.roughness, look.reflectance) * steps + dither), vec2<f32>(1.0, 0.0), steps));
     let albedo = sqrt(clamp(look.albedo, vec3<f32>(0.0), vec3<f32>(1.0)));
     return pack4x8unorm(vec4<f32>(albedo, 0.0)) | (((parts.x << 3u) | parts.y) << 24u);
 }

@@ -31,3 +31,9 @@ pub fn stamp(random: &mut Random, place: &Place, reach: f64, size: f64) -> Place
     let offset = [random.within(-reach, reach), random.within(-size, size), random.within(-reach, reach)];
     Placed { place: place.translated(offset), heading: random.within(-4.0, 4.0), edit }
 }
+
+/// A hole of any shape, as [`stamp`] has them.
+pub fn hole(random: &mut Random, place: &Place, reach: f64, size: f64) -> Placed {
+    let stamp = stamp(random, place, reach, size);
+    Placed { edit: Edit { mode: Mode::Hole, ..stamp.edit }, ..stamp }
+}

@@ -79,6 +79,9 @@ pub enum Mode {
     Flatten,
     /// Leaves it as it is, and keeps plants away: see [`StampsAt::clearing`](super::StampsAt::clearing).
     KeepTrees,
+    /// Takes it away: within the shape there is no ground, up to a crisp edge. A hole wins over whatever else is done to the
+    /// ground there, and a falloff has no part in it. See [`StampsAt::is_hole`](super::StampsAt::is_hole).
+    Hole,
 }
 
 node! {
@@ -126,7 +129,7 @@ impl Edit {
         match self.mode {
             Mode::Raise(by) => check_number("", &BY, by, &|| format!("{path}.mode.Raise"))?,
             Mode::Lower(by) => check_number("", &BY, by, &|| format!("{path}.mode.Lower"))?,
-            Mode::Flatten | Mode::KeepTrees => {}
+            Mode::Flatten | Mode::KeepTrees | Mode::Hole => {}
         }
         let inner = |name: &str| format!("{path}.shape.{name}");
         match &self.shape {

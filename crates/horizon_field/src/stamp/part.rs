@@ -38,6 +38,12 @@ impl<T: Real> Part<T> {
         (along, [along[0].abs() - self.extent[0], along[1].abs() - self.extent[1]])
     }
 
+    /// Whether a point lies within the part, where it is whole.
+    pub(super) fn holds(&self, q: [T; 2]) -> bool {
+        let over = self.beyond(q).1.map(|x| x.max(T::ZERO));
+        over[0] * over[0] + over[1] * over[1] <= self.radius * self.radius
+    }
+
     /// How whole the part is at a point, with the gradient.
     pub(super) fn weight(&self, q: [T; 2]) -> Jet<T, 2> {
         let (along, beyond) = self.beyond(q);

@@ -27,7 +27,7 @@ impl Ready {
         placed.check(path)?;
         let placed = Placed { place: Place::new(placed.place.cell, placed.place.offset), ..placed.clone() };
         let parts = parts(&placed);
-        let falloff = placed.edit.falloff;
+        let falloff = falloff(&placed.edit);
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         let mut narrow = f64::INFINITY;
         for part in &parts {
@@ -51,10 +51,29 @@ impl Ready {
         &self.key
     }
 
+    /// How far outside of its shape it does something.
+    pub(super) fn falloff(&self) -> f64 {
+        falloff(&self.placed.edit)
+    }
+
     /// Whether it changes the ground's height.
     pub(super) fn moves_ground(&self) -> bool {
-        self.placed.edit.mode != Mode::KeepTrees
+        !self.is_hole() && !self.keeps_trees()
     }
+
+    /// Whether it takes the ground away.
+    pub(super) fn is_hole(&self) -> bool {
+        self.placed.edit.mode == Mode::Hole
+    }
+
+    /// Whether it leaves the ground as it is.
+    pub(super) fn keeps_trees(&self) -> bool {
+        self.placed.edit.mode == Mode::KeepTrees
+    }
+}
+
+fn falloff(edit: &Edit) -> f64 {
+    if edit.mode == Mode::Hole { 0.0 } else { edit.falloff }
 }
 
 impl Part<f64> {
@@ -80,7 +99,7 @@ fn parts(Placed { heading, edit, place, .. }: &Placed) -> Vec<Part<f64>> {
         Mode::Raise(by) => (by, 0.0),
         Mode::Lower(by) => (-by, 0.0),
         Mode::Flatten => (height, 1.0),
-        Mode::KeepTrees => (0.0, 0.0),
+        Mode::KeepTrees | Mode::Hole => (0.0, 0.0),
     };
     let whole = Part {
         centre: [0.0; 2],
@@ -105,7 +124,7 @@ fn parts(Placed { heading, edit, place, .. }: &Placed) -> Vec<Part<f64>> {
             let radius = 0.5 * path.width;
             let turned = |[x, y, z]: [f64; 3]| [x * cos - z * sin, y, x * sin + z * cos];
             let points: Vec<_> = path.points.iter().map(|point| turned(*point)).collect();
-            let mut parts: Vec<_> = straights(&points, 0.01 + 0.005 * (radius + edit.falloff))
+            let mut parts: Vec<_> = straights(&points, 0.01 + 0.005 * (radius + falloff(edit)))
                 .into_iter()
                 .map(|[from, to]| {
                     let (x, z) = (to[0] - from[0], to[2] - from[2]);
@@ -145,6 +164,7 @@ fn key(Placed { place, heading, edit }: &Placed) -> Vec<u64> {
         Mode::Lower(by) => push(1, &[*by]),
         Mode::Flatten => push(2, &[]),
         Mode::KeepTrees => push(3, &[]),
+        Mode::Hole => push(4, &[]),
     }
     match shape {
         Shape::Disc(disc) => push(0, &[disc.radius]),

@@ -15,10 +15,15 @@ use crate::Place;
 pub struct Stamps {
     ready: Vec<Arc<Ready>>,
     origin: Place,
-    /// What moves the ground, and what keeps plants away.
+    /// What moves the ground, what keeps plants away, and what takes the ground away.
     pub(super) ground: Layer,
     pub(super) clearing: Layer,
+    pub(super) holes: Layer,
 }
+
+/// What a hole's edge counts as, in metres of wavelength: a grid shows waves by eight texels each, and the edge by steps of a
+/// texel, which are then 3 cm.
+const EDGE: f64 = 0.25;
 
 /// The parts of stamps of a kind.
 #[derive(Clone, Debug, Default)]
@@ -107,7 +112,7 @@ impl Layer {
         for (stamp, ready) in stamps.iter().enumerate().filter(|(_, ready)| belongs(ready)) {
             let [x, _, z] = ready.placed().place.minus(origin);
             for part in &ready.parts {
-                let reach = part.reach(ready.placed().edit.falloff);
+                let reach = part.reach(ready.falloff());
                 let centre = [x + part.centre[0], z + part.centre[1]];
                 // However its coordinates are rounded, the part is within.
                 boxes.push(Box2::around(centre, [0, 1].map(|k| reach[k] + 1e-6 + 1e-9 * (centre[k].abs() + reach[k]))));
@@ -142,8 +147,9 @@ impl Stamps {
         ready.sort_by(|a, b| a.key().cmp(b.key()));
         let origin = ready.first().map_or(Place::ORIGIN, |first| first.placed().place);
         let ground = Layer::new(&ready, &origin, Ready::moves_ground);
-        let clearing = Layer::new(&ready, &origin, |ready| !ready.moves_ground());
-        Self { ready, origin, ground, clearing }
+        let clearing = Layer::new(&ready, &origin, Ready::keeps_trees);
+        let holes = Layer::new(&ready, &origin, Ready::is_hole);
+        Self { ready, origin, ground, clearing, holes }
     }
 
     /// Checks stamps, and makes a set of them.
@@ -165,6 +171,11 @@ impl Stamps {
         self.ready.iter().map(|ready| ready.placed())
     }
 
+    /// Whether any of them takes ground away.
+    pub fn has_holes(&self) -> bool {
+        !self.holes.parts.is_empty()
+    }
+
     /// The stamps around a place.
     pub fn at(&self, place: &Place) -> StampsAt<'_> {
         StampsAt::new(self, place)
@@ -181,10 +192,12 @@ impl Stamps {
         (low.min(base.0), high.max(base.1))
     }
 
-    /// The length of the finest wave in the ground that the stamps make, in metres; infinite without any.
+    /// The length of the finest wave in the ground that the stamps make, in metres; infinite without any. The edge of a hole
+    /// counts as one of 0.25 m.
     pub fn finest_wavelength(&self) -> f64 {
         let ground = self.ready.iter().filter(|ready| ready.moves_ground());
-        ground.map(|ready| 2.0 * ready.placed().edit.falloff).fold(f64::INFINITY, f64::min)
+        let edge = if self.has_holes() { EDGE } else { f64::INFINITY };
+        ground.map(|ready| 2.0 * ready.falloff()).fold(edge, f64::min)
     }
 
     /// Where the ground of another set is not this one's: around each stamp that is in one of them only.
@@ -207,7 +220,7 @@ impl Stamps {
                     None
                 }
             };
-            areas.extend(changed.filter(|ready| ready.moves_ground()).map(|ready| ready.area()));
+            areas.extend(changed.filter(|ready| !ready.keeps_trees()).map(|ready| ready.area()));
         }
     }
 }

@@ -36,6 +36,19 @@ fn stamp_weight(part: StampPart, q: vec2<f32>) -> vec3<f32> {
     return vec3<f32>(part.presence * smooth_u, g.x * part.axis.x - g.y * part.axis.y, g.x * part.axis.y + g.y * part.axis.x);
 }
 
+// Whether a point lies within any of some parts, where these are whole: in a hole.
+fn stamp_hole(first: u32, count: u32, q: vec2<f32>) -> bool {
+    var hole = false;
+    for (var i = 0u; i < count; i++) {
+        let part = stamp_part(first + i);
+        let at = q - part.centre;
+        let along = vec2<f32>(at.x * part.axis.x + at.y * part.axis.y, at.y * part.axis.x - at.x * part.axis.y);
+        let over = max(abs(along) - part.extent, vec2<f32>(0.0));
+        hole = hole || over.x * over.x + over.y * over.y <= part.radius * part.radius;
+    }
+    return hole;
+}
+
 // The ground (height and gradient) at a point, with parts on it, in their order.
 fn stamped(first: u32, count: u32, q: vec2<f32>, base: vec3<f32>) -> vec3<f32> {
     var ground = base;

@@ -2,6 +2,7 @@
 
 mod bounds;
 mod files;
+mod holes;
 mod paths;
 mod sets;
 mod values;

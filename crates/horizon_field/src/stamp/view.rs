@@ -74,8 +74,20 @@ impl<'a> StampsAt<'a> {
         [found.len(), looked]
     }
 
-    /// How far plants are kept away, from 0 (not at all) to 1: by [`Mode::KeepTrees`](super::Mode::KeepTrees).
+    /// Whether there is no ground at `q`, by a [`Mode::Hole`](super::Mode::Hole). Of holes, a grid of spacing `cutoff` metres shows
+    /// what is wider.
+    pub fn is_hole<T: Real>(&self, q: [T; 2], cutoff: T) -> bool {
+        let layer = &self.stamps.holes;
+        let (found, _) = layer.index.touching(&self.area(q.map(T::f64), [0.0; 2]), |_| false);
+        self.parts(layer, &found, cutoff.f64()).any(|part| part.holds(q))
+    }
+
+    /// How far plants are kept away, from 0 (not at all) to 1: by [`Mode::KeepTrees`](super::Mode::KeepTrees), and where there is no
+    /// ground.
     pub fn clearing(&self, q: [f64; 2]) -> f64 {
+        if self.is_hole(q, 0.0) {
+            return 1.0;
+        }
         let layer = &self.stamps.clearing;
         let (found, _) = layer.index.touching(&self.area(q, [0.0; 2]), |_| false);
         self.parts(layer, &found, 0.0).map(|part: Part<f64>| part.weight(q).v).fold(0.0, f64::max)
@@ -100,9 +112,20 @@ impl<'a> StampsAt<'a> {
     }
 
     /// Appends the parts that reach into a box, little-endian, in the layout of `StampPart` in `stamp.wgsl`, relative to the
-    /// anchor and as a grid of spacing `cutoff` metres shows them. Returns how many.
-    pub fn append_bytes(&self, centre: [f64; 2], half: [f64; 2], cutoff: f64, bytes: &mut Vec<u8>) -> u32 {
-        let layer = &self.stamps.ground;
+    /// anchor and as a grid of spacing `cutoff` metres shows them: first those that move the ground, then holes. Returns how
+    /// many of each.
+    pub fn append_bytes(&self, centre: [f64; 2], half: [f64; 2], cutoff: f64, bytes: &mut Vec<u8>) -> [u32; 2] {
+        [&self.stamps.ground, &self.stamps.holes].map(|layer| self.append_layer(layer, centre, half, cutoff, bytes))
+    }
+
+    fn append_layer(
+        &self,
+        layer: &'a Layer,
+        centre: [f64; 2],
+        half: [f64; 2],
+        cutoff: f64,
+        bytes: &mut Vec<u8>,
+    ) -> u32 {
         let (found, _) = layer.index.touching(&self.area(centre, half), |_| false);
         let before = bytes.len();
         for part in self.parts::<f32>(layer, &found, cutoff) {

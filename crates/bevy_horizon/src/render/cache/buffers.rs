@@ -97,6 +97,7 @@ struct FillJob {
     texel: f32,
     stamp: u32,
     stamps: u32,
+    holes: u32,
 }
 
 /// `TileJob` of `pyramid.wgsl` and `light.wgsl`.
@@ -145,13 +146,14 @@ impl FrameJobs {
                 let half = [0.5 * (TILE - 1) as f64 * texel; 2];
                 let stamp = (parts.len() / PART_BYTES) as u32;
                 // The cut-off is the shader's.
-                let count = stamps.at(&place).append_bytes(half, half, 0.75 * texel, &mut parts);
+                let [moving, holes] = stamps.at(&place).append_bytes(half, half, 0.75 * texel, &mut parts);
                 fills.push(FillJob {
                     tile: clipmap.stored(*tile),
                     anchor: i as u32 * stride,
                     texel: texel as f32,
                     stamp,
-                    stamps: count,
+                    stamps: moving,
+                    holes,
                 });
             }
             anchors.resize(anchors.len().max(64), 0);

@@ -7,9 +7,10 @@ struct Job {
     anchor: u32,
     // Metres per texel.
     texel: f32,
-    // The stamps that reach into the tile: the first of their parts, and how many.
+    // The stamps that reach into the tile: the first of their parts, how many move the ground, and how many holes follow.
     stamp: u32,
     stamps: u32,
+    holes: u32,
 }
 
 @group(1) @binding(0) var<storage, read> jobs: array<Job>;
@@ -47,7 +48,9 @@ fn fill(@builtin(global_invocation_id) id: vec3<u32>, @builtin(workgroup_id) gro
     let look = material_at(job.anchor, q, job.texel, cutoff, ground);
     // Three words a pair of texels: two looks, then both normals. A tile's looks are 6656 words, see surface.wgsl.
     let pair = job.tile * 6656u + 3u * ((index & 4095u) >> 1u);
-    looks[pair + (index & 1u)] = material_packed(look, id.xy);
+    // A hole is a roughness of 0, which no ground has.
+    let word = material_packed(look, id.xy);
+    looks[pair + (index & 1u)] = select(word, word & 0x07ffffffu, stamp_hole(job.stamp + job.stamps, job.holes, q));
     normals[lane] = pack_normal(ground.yz, id.xy);
     workgroupBarrier();
     if ((lane & 1u) == 0u) {

@@ -1,5 +1,6 @@
 // A ray through the drawn surface: climb and descend the pyramid of maxima (maximum mipmaps, Tevs et al. 2008), find
-// the patch, solve it. Needs surface.wgsl, and HEAT, which says whether to count.
+// the patch, solve it. Where a hole takes the ground away, the ray goes on under it, and all is upside down until it comes out. Needs
+// view.wgsl, surface.wgsl, look.wgsl, and HEAT, which says whether to count.
 
 struct Ray {
     // From the clipmap's centre; y above the datum.
@@ -71,6 +72,8 @@ struct Walk {
     cell: vec2<i32>,
     steps: u32,
     loads: u32,
+    // 1 above the ground, −1 under it.
+    side: f32,
     // What depends on the level alone: the level, the ray in its texels, and when the ray enters the next finer one.
     l: Level,
     origin: vec2<f32>,
@@ -139,15 +142,17 @@ fn descend(walk: ptr<function, Walk>, ray: Ray, inverse: vec2<f32>, positive: ve
         if (HEAT) {
             (*walk).loads += select(1u, 2u, is_blended((*walk).l, node.low, f32(1u << (*walk).mip)));
         }
-        let highest = node_bounds((*walk).l, (*walk).level, (*walk).cell, node.low, (*walk).mip).y;
-        let y = ray.origin.y + ray.direction.y * (*walk).t;
-        if (min(y, ray.origin.y + ray.direction.y * node.t_exit) > highest) {
+        let extremes = node_bounds((*walk).l, (*walk).level, (*walk).cell, node.low, (*walk).mip);
+        let highest = select(-extremes.x, extremes.y, (*walk).side > 0.0);
+        let line = (*walk).side * vec2<f32>(ray.origin.y, ray.direction.y);
+        let y = line.x + line.y * (*walk).t;
+        if (min(y, line.x + line.y * node.t_exit) > highest) {
             leave(walk, ray, node, inverse, positive);
             continue;
         }
         // Not before the ray has fallen to the node's highest point.
         if (y > highest) {
-            (*walk).t = clamp((highest - ray.origin.y) / ray.direction.y, (*walk).t, node.t_exit);
+            (*walk).t = clamp((highest - line.x) / line.y, (*walk).t, node.t_exit);
         }
         (*walk).mip -= 1u;
         let at = vec2<i32>(floor((*walk).origin + (*walk).d * (*walk).t));
@@ -160,6 +165,65 @@ fn leaves_square(ray: Ray, inverse: vec2<f32>, r: f32) -> f32 {
     let a = (vec2<f32>(-r) - ray.origin.xz) * inverse;
     let b = (vec2<f32>(r) - ray.origin.xz) * inverse;
     return min(max(a.x, b.x), max(a.y, b.y));
+}
+
+// How high the ray is above the patch that it stands before, s metres on: q0 + q1 s + q2 s².
+fn over_patch(walk: Walk, ray: Ray) -> vec3<f32> {
+    let h = corners(walk.l, walk.level, walk.cell);
+    let at = walk.origin - vec2<f32>(walk.cell) + walk.d * walk.t;
+    let a = h.y - h.x;
+    let b = h.z - h.x;
+    let c = h.w - h.y - b;
+    let q0 = ray.origin.y + ray.direction.y * walk.t - (h.x + a * at.x + b * at.y + c * at.x * at.y);
+    let q1 = ray.direction.y - (a * walk.d.x + b * walk.d.y + c * (at.x * walk.d.y + at.y * walk.d.x));
+    return vec3<f32>(q0, q1, -c * walk.d.x * walk.d.y);
+}
+
+// Where q0 + q1 s + q2 s² falls through 0, and where it rises through it; a large number where it does not.
+fn crossings(q: vec3<f32>) -> vec2<f32> {
+    let d = q.y * q.y - 4.0 * q.z * q.x;
+    if (d <= 0.0) {
+        return vec2<f32>(1e30);
+    }
+    let r = -0.5 * (q.y + select(-1.0, 1.0, q.y >= 0.0) * sqrt(d));
+    // At r / q2 the slope is q1 + 2 r, whose sign is not q1's; at the other root it is.
+    let a = select(1e30, r / q.z, q.z != 0.0);
+    let b = select(1e30, q.x / r, r != 0.0);
+    return select(vec2<f32>(b, a), vec2<f32>(a, b), q.y >= 0.0);
+}
+
+// Whether the texel that is nearest to the ray, s metres on, is a hole's.
+fn in_hole(walk: Walk, s: f32) -> bool {
+    let at = walk.origin - vec2<f32>(walk.cell) + walk.d * (walk.t + s);
+    return is_hole(texel_index(walk.l, walk.cell + select(vec2<i32>(0), vec2<i32>(1), at >= vec2<f32>(0.5))));
+}
+
+// As first_root, where there may be holes: how far on the ray meets the patch from above, and not in a hole; negative where it
+// does not. The walk's side becomes that on which the ray leaves the patch.
+fn pierce(walk: ptr<function, Walk>, q: vec3<f32>, length: f32) -> f32 {
+    var under_since = 0.0;
+    // What was above, and begins under the patch and rises, has come out of the last one within rounding: it is under this one yet.
+    if (q.x > 0.0 || ((*walk).side > 0.0 && q.y < 0.0)) {
+        (*walk).side = 1.0;
+        let s = first_root(q.x, q.y, q.z, length);
+        if (s < 0.0 || !in_hole(*walk, s)) {
+            return s;
+        }
+        under_since = s;
+    }
+    (*walk).side = -1.0;
+    // Down, and up.
+    let roots = crossings(q);
+    if (roots.y >= under_since && roots.y <= length) {
+        (*walk).side = 1.0;
+        if (roots.x > roots.y && roots.x <= length) {
+            if (!in_hole(*walk, roots.x)) {
+                return roots.x;
+            }
+            (*walk).side = -1.0;
+        }
+    }
+    return -1.0;
 }
 
 fn march(ray: Ray, t_start: f32, far: f32) -> Found {
@@ -175,7 +239,11 @@ fn march(ray: Ray, t_start: f32, far: f32) -> Found {
     var walk: Walk;
     walk.t = t_start;
     walk.mip = select(TOP_MIP, START_MIP, t_start > 0.0);
+    walk.side = 1.0;
     enter_level(&walk, ray, inverse, level_at((ray.origin + ray.direction * t_start).xz));
+    if (view.holes != 0u && walk.level < clipmap.count) {
+        walk.side = select(-1.0, 1.0, over_patch(walk, ray).x > 0.0);
+    }
     while (walk.steps < MARCH_STEPS) {
         descend(&walk, ray, inverse, positive, t_far);
         if (walk.t > t_far || walk.level >= clipmap.count) {
@@ -186,14 +254,13 @@ fn march(ray: Ray, t_start: f32, far: f32) -> Found {
         if (HEAT) {
             walk.loads += select(4u, 8u, is_blended(walk.l, walk.cell, 1.0));
         }
-        let h = corners(walk.l, walk.level, walk.cell);
-        let at = walk.origin - vec2<f32>(walk.cell) + walk.d * walk.t;
-        let a = h.y - h.x;
-        let b = h.z - h.x;
-        let c = h.w - h.y - b;
-        let q0 = ray.origin.y + ray.direction.y * walk.t - (h.x + a * at.x + b * at.y + c * at.x * at.y);
-        let q1 = ray.direction.y - (a * walk.d.x + b * walk.d.y + c * (at.x * walk.d.y + at.y * walk.d.x));
-        let s = first_root(q0, q1, -c * walk.d.x * walk.d.y, node.t_exit - walk.t);
+        let q = over_patch(walk, ray);
+        var s: f32;
+        if (view.holes == 0u) {
+            s = first_root(q.x, q.y, q.z, node.t_exit - walk.t);
+        } else {
+            s = pierce(&walk, q, node.t_exit - walk.t);
+        }
         if (s >= 0.0) {
             return Found(select(-1.0, walk.t + s, walk.t + s <= t_far), walk.level, walk.cell, walk.steps, walk.loads);
         }

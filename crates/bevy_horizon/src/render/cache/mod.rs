@@ -247,6 +247,11 @@ impl Cache {
         [low as f32, high as f32]
     }
 
+    /// Whether its ground may have holes.
+    pub fn holes(&self) -> bool {
+        self.stamps.has_holes()
+    }
+
     /// From the finest texels that are drawn out to where the ground ends, at most `far`, in metres.
     pub fn reach(&self, far: f32) -> [f32; 2] {
         let mut drawn = self.drawn.iter().filter(|level| level.outer > 0.0).map(|level| (level.exponent as f32).exp2());

@@ -11,9 +11,9 @@ use bevy::render::diagnostic::RecordDiagnostics;
 use bevy::render::render_resource::binding_types::{storage_buffer_read_only_sized, uniform_buffer};
 use bevy::render::render_resource::{
     BindGroup, BindGroupEntries, BindGroupLayoutDescriptor, BindGroupLayoutEntries, Buffer, BufferInitDescriptor,
-    BufferUsages, CachedRenderPipelineId, CompareFunction, DepthStencilState, DynamicUniformBuffer, IndexFormat,
-    PipelineCache, PrimitiveState, RenderPassDescriptor, RenderPipelineDescriptor, ShaderStages, ShaderType, StoreOp,
-    VertexState,
+    BufferUsages, CachedRenderPipelineId, CompareFunction, DepthStencilState, DynamicUniformBuffer, FragmentState,
+    IndexFormat, PipelineCache, PrimitiveState, RenderPassDescriptor, RenderPipelineDescriptor, ShaderStages,
+    ShaderType, StoreOp, VertexState,
 };
 use bevy::render::renderer::{RenderContext, RenderDevice, RenderQueue, ViewQuery};
 use bevy::render::view::ExtractedView;
@@ -58,13 +58,15 @@ pub struct GroundCast {
     offset: u32,
     first: u32,
     count: u32,
+    /// Whether there may be holes in it.
+    holes: bool,
 }
 
-/// The pipeline, and what it binds; none before a light asks.
+/// The pipelines of ground without holes and with, and what they bind; none before a light asks.
 #[derive(Resource)]
 pub struct CastPipeline {
     layout: BindGroupLayoutDescriptor,
-    id: Option<CachedRenderPipelineId>,
+    ids: [Option<CachedRenderPipelineId>; 2],
     indices: Option<Buffer>,
     lights: DynamicUniformBuffer<LightUniform>,
     /// The patches of all maps of this frame.
@@ -77,17 +79,18 @@ impl Default for CastPipeline {
     fn default() -> Self {
         let read = || storage_buffer_read_only_sized(false, None);
         let layout = BindGroupLayoutEntries::with_indices(
-            ShaderStages::VERTEX,
+            ShaderStages::VERTEX_FRAGMENT,
             (
                 (0, uniform_buffer::<ClipmapUniform>(false)),
                 (1, read()),
-                (3, uniform_buffer::<LightUniform>(true)),
+                (3, read()),
                 (4, read()),
+                (5, uniform_buffer::<LightUniform>(true)),
             ),
         );
         Self {
             layout: BindGroupLayoutDescriptor::new("horizon_cast", &layout),
-            id: None,
+            ids: [None; 2],
             indices: None,
             lights: DynamicUniformBuffer::default(),
             patches: None,
@@ -97,16 +100,14 @@ impl Default for CastPipeline {
 }
 
 impl CastPipeline {
-    fn queue(&mut self, cache: &PipelineCache, device: &RenderDevice) {
-        self.id.get_or_insert_with(|| {
+    fn queue(&mut self, cache: &PipelineCache, device: &RenderDevice, holes: bool) {
+        self.ids[usize::from(holes)].get_or_insert_with(|| {
+            let shader = Source::Cast { holes }.handle();
+            let entry = if holes { "cast_pierced" } else { "cast_ground" };
             cache.queue_render_pipeline(RenderPipelineDescriptor {
                 label: Some("horizon_cast".into()),
                 layout: vec![self.layout.clone()],
-                vertex: VertexState {
-                    shader: Source::Cast.handle(),
-                    entry_point: Some("cast_ground".into()),
-                    ..default()
-                },
+                vertex: VertexState { shader: shader.clone(), entry_point: Some(entry.into()), ..default() },
                 primitive: PrimitiveState::default(),
                 depth_stencil: Some(DepthStencilState {
                     format: CORE_3D_DEPTH_FORMAT,
@@ -115,6 +116,7 @@ impl CastPipeline {
                     stencil: default(),
                     bias: default(),
                 }),
+                fragment: holes.then(|| FragmentState { shader, entry_point: Some("keep_ground".into()), ..default() }),
                 ..default()
             })
         });
@@ -322,7 +324,13 @@ pub fn prepare_casts(
         match light.filter(|_| count > 0) {
             Some((LightView { clip_from_ground, place, .. }, cache)) => {
                 let offset = pipeline.lights.push(&LightUniform { clip_from_ground, place });
-                commands.entity(entity).insert(GroundCast { cache, offset, first: from, count });
+                commands.entity(entity).insert(GroundCast {
+                    cache,
+                    offset,
+                    first: from,
+                    count,
+                    holes: caches.0[cache].holes(),
+                });
             }
             None if was => {
                 commands.entity(entity).remove::<GroundCast>();
@@ -333,7 +341,10 @@ pub fn prepare_casts(
     if all.is_empty() {
         return;
     }
-    pipeline.queue(&pipelines, &device);
+    pipeline.queue(&pipelines, &device, false);
+    if caches.0.iter().any(Cache::holes) {
+        pipeline.queue(&pipelines, &device, true);
+    }
     pipeline.lights.write_buffer(&device, &queue);
     pipeline.patches = Some(device.create_buffer_with_data(&BufferInitDescriptor {
         label: Some("horizon_cast_patches"),
@@ -348,8 +359,9 @@ pub fn prepare_casts(
         let entries = BindGroupEntries::with_indices((
             (0, clipmap),
             (1, buffers.heights.as_entire_binding()),
-            (3, lights),
+            (3, buffers.looks.as_entire_binding()),
             (4, patches.as_entire_binding()),
+            (5, lights),
         ));
         pipeline.groups.push(Some(device.create_bind_group("horizon_cast", &layout, &entries)));
     }
@@ -389,7 +401,9 @@ fn draw(
     ctx: &mut RenderContext,
 ) {
     let group = pipeline.groups.get(cast.cache).and_then(Option::as_ref);
-    let made = pipeline.id.and_then(|id| pipelines.get_render_pipeline(id));
+    let made = |holes: bool| pipeline.ids[usize::from(holes)].and_then(|id| pipelines.get_render_pipeline(id));
+    // While that for holes compiles, the ground is whole.
+    let made = made(cast.holes).or_else(|| made(false));
     let (Some(group), Some(made), Some(indices)) = (group, made, &pipeline.indices) else { return };
     let diagnostics = ctx.diagnostic_recorder();
     let diagnostics = diagnostics.as_deref();

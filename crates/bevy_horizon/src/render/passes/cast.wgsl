@@ -20,18 +20,22 @@ struct Patch {
     cell: vec2<i32>,
 }
 
-@group(0) @binding(3) var<uniform> light: Light;
 @group(0) @binding(4) var<storage, read> patches: array<Patch>;
+@group(0) @binding(5) var<uniform> light: Light;
 
 // Quads that a vertex is pushed.
 const PUSH: f32 = 2.0;
 
-@vertex
-fn cast_ground(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance: u32) -> @builtin(position) vec4<f32> {
-    let one = patches[instance];
+// The texel at a vertex of a patch.
+fn vertex_cell(one: Patch, vertex: u32) -> vec2<i32> {
     let l = clipmap.levels[one.level];
     let corner = one.cell + vec2<i32>(vec2<u32>(vertex % 17u, vertex / 17u)) * one.quad;
-    let cell = clamp(corner, l.low, l.high - vec2<i32>(1));
+    return clamp(corner, l.low, l.high - vec2<i32>(1));
+}
+
+// Where that lies in the map.
+fn in_map(one: Patch, cell: vec2<i32>) -> vec4<f32> {
+    let l = clipmap.levels[one.level];
     let at = (vec2<f32>(cell) - l.fraction) * l.texel;
     let p = vec3<f32>(at.x, stored_height(l, cell), at.y);
     let to_light = normalize(light.place.xyz - p * light.place.w);
@@ -41,4 +45,10 @@ fn cast_ground(@builtin(vertex_index) vertex: u32, @builtin(instance_index) inst
         clip.z = min(clip.z, clip.w);
     }
     return clip;
+}
+
+@vertex
+fn cast_ground(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance: u32) -> @builtin(position) vec4<f32> {
+    let one = patches[instance];
+    return in_map(one, vertex_cell(one, vertex));
 }

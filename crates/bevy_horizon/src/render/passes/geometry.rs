@@ -71,13 +71,11 @@ impl Key {
                 (0, uniform_buffer::<ClipmapUniform>(false)),
                 (1, read()),
                 (2, read()),
+                (3, read()),
                 (5, uniform_buffer::<HorizonViewUniform>(true)),
                 (6, read()),
             ),
         );
-        if self.targets.beside() == Beside::Surfaces {
-            entries = entries.extend_with_indices(((3, read()),));
-        }
         if self.scaled {
             entries = entries.extend_with_indices(((8, texture_depth_2d()),));
         }
@@ -199,16 +197,13 @@ pub fn bind_geometry(
             (0, clipmap),
             (1, buffers.heights.as_entire_binding()),
             (2, buffers.bounds.as_entire_binding()),
+            (3, buffers.looks.as_entire_binding()),
             (5, view),
             (6, clearance.buffer().as_entire_binding()),
         ))
         .to_vec();
         let bind = |draw: &mut Draw, depth: Option<&CachedTexture>| {
             let mut entries = entries.clone();
-            if draw.key.targets.beside() == Beside::Surfaces {
-                let looks = DynamicBindGroupEntries::new_with_indices(((3, buffers.looks.as_entire_binding()),));
-                entries.extend_from_slice(&looks);
-            }
             if let Some(depth) = depth {
                 entries.extend_from_slice(&DynamicBindGroupEntries::new_with_indices(((8, &depth.default_view),)));
             }

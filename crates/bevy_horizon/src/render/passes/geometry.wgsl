@@ -1,4 +1,5 @@
-// The ground's geometry: one ray a pixel through the cache. Needs view.wgsl, surface.wgsl, march.wgsl and clear_start.wgsl.
+// The ground's geometry: one ray a pixel through the cache. Needs view.wgsl, surface.wgsl, look.wgsl, march.wgsl and
+// clear_start.wgsl.
 
 @group(0) @binding(1) var<storage, read> heights: array<f32>;
 @group(0) @binding(2) var<storage, read> bounds: array<u32>;

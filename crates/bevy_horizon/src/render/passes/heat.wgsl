@@ -1,5 +1,5 @@
 // What a debug view shows in place of the picture, in the order of `DebugView`. It casts every pixel's ray once more, and counts.
-// Needs geometry.wgsl, look.wgsl, sunlit.wgsl and motion.wgsl.
+// Needs geometry.wgsl, sunlit.wgsl and motion.wgsl.
 
 @group(0) @binding(9) var<storage, read> truths: array<f32>;
 

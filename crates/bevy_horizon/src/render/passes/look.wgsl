@@ -34,6 +34,11 @@ fn stored_surface(texel: u32) -> Surface {
     return Surface(unpack4x8unorm(word).rgb, vec2<f32>(f32(word >> 27u) / 31.0, f32((word >> 24u) & 7u) / 7.0));
 }
 
+// Whether there is no ground around a texel: its roughness is 0, which no ground's is.
+fn is_hole(texel: u32) -> bool {
+    return looks[look_words(texel) + (texel & 1u)] < 0x08000000u;
+}
+
 // What one level holds at a point of the ground.
 fn level_look(l: Level, p: vec2<f32>) -> Look {
     let at = p * l.per_metre + l.fraction;
@@ -48,7 +53,9 @@ fn level_look(l: Level, p: vec2<f32>) -> Look {
     let d = stored_surface(i.w);
     let colour = w.x * a.colour + w.y * b.colour + w.z * c.colour + w.w * d.colour;
     let finish = w.x * a.finish + w.y * b.finish + w.z * c.finish + w.w * d.finish;
-    return Look(normal, colour * colour, finish.x, finish.y);
+    // At a hole's edge the roughness is that of the texels that have ground.
+    let there = dot(w, sign(vec4<f32>(a.finish.x, b.finish.x, c.finish.x, d.finish.x)));
+    return Look(normal, colour * colour, select(1.0, finish.x / there, there > 0.0), finish.y);
 }
 
 fn look_at(level: u32, p: vec2<f32>) -> Look {

@@ -1,6 +1,5 @@
 // The geometry's surfaces, as Bevy's prepass has them: normal, motion vector, G-buffer and lighting id. What a view has no
-// target for is dropped. Needs seen_in() of whole.wgsl or upsample.wgsl, look.wgsl and
-// motion.wgsl.
+// target for is dropped. Needs seen_in() of whole.wgsl or upsample.wgsl, and motion.wgsl.
 
 struct Ground {
     @location(0) normal: vec4<f32>,

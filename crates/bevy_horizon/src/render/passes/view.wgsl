@@ -28,6 +28,8 @@ struct HorizonView {
     columns: vec3<u32>,
     // Its rings: the radius that the first would have, and the binary logarithm of the ratio of two.
     rings: vec2<f32>,
+    // 1 where the ground may have holes.
+    holes: u32,
     // Towards the sun, wherever it stands.
     sun_towards: vec3<f32>,
     // 1 where the cache knows how the ground hides the sun; 2 where the ground hides all of a sun that is down.

@@ -198,6 +198,18 @@ fn packing_shows_no_steps() {
     assert!(worst.0 < 0.006 && worst.1 > 0.05, "{worst:?}");
 }
 
+/// The five bits of roughness leave 0 to holes, whatever the roughness is.
+#[test]
+fn no_look_is_taken_for_a_hole() {
+    let (mut least, mut naive) = (31, 31);
+    for roughness in [-1.0, 0.0, 0.03, 0.089, 1.0, f32::NAN] {
+        let look = Look { albedo: [0.0; 3], roughness, reflectance: 0.0, shares: [0.0; 17] };
+        least = (0..4096u32).map(|i| look.packed([i % 64, i / 64]) >> 27).fold(least, u32::min);
+        naive = naive.min((roughness * 31.0) as u32);
+    }
+    assert_eq!((least, naive), (1, 0));
+}
+
 #[test]
 fn a_surface_of_one_colour_has_no_noise() {
     let plain = TerrainMaterial { base: Surface::default(), layers: Vec::new(), ..TerrainMaterial::default() };

@@ -81,7 +81,10 @@ fn the_twin_is_sound_wgsl() {
 fn stamp_part(i: u32) -> StampPart {{ return parts[i]; }}
 @group(0) @binding(1) var<storage, read_write> out: array<vec4<f32>>;
 @compute @workgroup_size(1)
-fn main() {{ out[0] = vec4<f32>(stamped(0u, 3u, vec2<f32>(1.0), vec3<f32>(0.0)), 0.0); }}"
+fn main() {{
+    let ground = stamped(0u, 3u, vec2<f32>(1.0), vec3<f32>(0.0));
+    out[0] = vec4<f32>(ground, select(0.0, 1.0, stamp_hole(3u, 2u, vec2<f32>(1.0))));
+}}"
     );
     let module =
         naga::front::wgsl::parse_str(&source).unwrap_or_else(|error| panic!("{}", error.emit_to_string(&source)));
