@@ -7,6 +7,7 @@ use bevy::pbr::{DefaultOpaqueRendererMethod, ScreenSpaceAmbientOcclusion};
 use bevy::post_process::bloom::Bloom;
 use bevy::prelude::*;
 use bevy_horizon::prelude::*;
+use bevy_horizon::world::towards_sun;
 use bevy_horizon_workspace::example;
 use horizon_field::field::Fractal;
 

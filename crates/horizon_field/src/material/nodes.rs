@@ -41,7 +41,7 @@ node! {
         blend: f64 = 0.35, "The noise that is all second colour; minus that, and it is all the first.", in 1e-3 .. 1e3 "";
         tint: Option<NoiseLayer> = None, "The noise; without one, the material's `tint`.";
         roughness: f64 = 0.85, "The perceptual roughness: 0.089 a mirror, 1 chalk.", in 0.089 .. 1.0 "";
-        reflectance: f64 = 0.5, "The reflectance head on: 0.5 is that of most minerals, 4 %.", in 0.0 .. 1.0 "";
+        reflectance: f64 = 0.25, "The reflectance head on, as Bevy has it: 0.5 is that of polished minerals, 4 %; soil and leaves shade most of theirs.", in 0.0 .. 1.0 "";
     }
 }
 
