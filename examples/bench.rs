@@ -81,6 +81,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let world = WorldFile::from_ron(&std::fs::read_to_string(&options.world)?)?;
     let mut stage = Stage::new(options.size[0], options.size[1]);
     stage.light();
+    let mut suns = stage.world().query::<&mut DirectionalLight>();
+    for mut sun in suns.iter_mut(stage.world()) {
+        sun.shadow_maps_enabled = true;
+    }
     let terrain = world.terrain.unwrap_or_default();
     let ground = terrain.field.compile::<2>(&horizon_field::field::NoImages)?;
     let origin = ground.anchor(&Place::ORIGIN);

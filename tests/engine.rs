@@ -221,8 +221,17 @@ fn impossible_cameras_are_survived() {
     assert_eq!(stage.world().get::<Msaa>(camera), Some(&Msaa::Off));
     let lit = |stage: &mut Stage| stage.off.screenshot().pixels().filter(|p| p[1] > 20).count();
     assert!(lit(&mut stage) > 96 * 54 / 2);
-    // Back to the forward route, and out of use and in again.
-    stage.world().entity_mut(camera).remove::<(DepthPrepass, DeferredPrepass)>();
+    // More samples than the driver has: it gets what there is. The game's own component stays.
+    stage
+        .world()
+        .entity_mut(camera)
+        .remove::<(DepthPrepass, DeferredPrepass, bevy_horizon_workspace::stage::KeepDepth)>();
+    stage.world().entity_mut(camera).insert(Msaa::Sample8);
+    (0..6).for_each(|_| stage.off.update());
+    assert_eq!(stage.world().get::<Msaa>(camera), Some(&Msaa::Sample8));
+    assert!(lit(&mut stage) > 96 * 54 / 2);
+    stage.world().entity_mut(camera).insert(Msaa::Off);
+    // Out of use and in again.
     (0..3).for_each(|_| stage.off.update());
     stage.world().entity_mut(camera).remove::<HorizonCamera>();
     (0..3).for_each(|_| stage.off.update());

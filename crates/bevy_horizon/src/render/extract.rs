@@ -6,10 +6,12 @@ use bevy::camera::visibility::{InheritedVisibility, RenderLayers};
 use bevy::light::{AmbientLight, DirectionalLight, GlobalAmbientLight};
 use bevy::prelude::*;
 use bevy::render::Extract;
+use bevy::render::renderer::RenderDevice;
 use bevy::render::sync_component::SyncComponent;
 use bevy::render::sync_world::RenderEntity;
 use horizon_field::{Place, Stamps};
 
+use super::able::Able;
 use super::air::ViewAir;
 use super::kernel::TerrainKernel;
 use super::passes::{ViewClearance, ViewGeometry, ViewPasses, ViewShade};
@@ -133,7 +135,13 @@ pub fn extract_world(
     suns: Extract<Suns>,
     origin: Extract<Res<WorldOrigin>>,
     settings: Extract<Res<super::cache::CacheSettings>>,
+    mut able: Local<Option<Able>>,
+    device: Res<RenderDevice>,
 ) {
+    // Without what it takes there is no world to draw: as if none were there.
+    if !able.get_or_insert_with(|| Able::new(&device)).0 {
+        return;
+    }
     world.origin = origin.0;
     world.settings = settings.clone();
     world.terrains.clear();

@@ -2,6 +2,7 @@
 //! `cache` (the field, at the resolution that the screen can show), `air` (its tables), `view` (a camera's rays), `passes` (into the
 //! view).
 
+pub mod able;
 mod air;
 pub mod cache;
 pub(crate) mod extract;
@@ -76,6 +77,10 @@ impl Plugin for HorizonRenderPlugin {
             .add_systems(
                 ExtractSchedule,
                 ((extract::extract_world, extract::extract_cameras).chain(), truth::extract_truths),
+            )
+            .add_systems(
+                Render,
+                able::limit_samples.after(RenderSystems::ExtractCommands).before(RenderSystems::PrepareAssets),
             )
             .add_systems(
                 Render,
