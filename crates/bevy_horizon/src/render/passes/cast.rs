@@ -31,7 +31,7 @@ const QUADS: u16 = 16;
 /// The most texels along a quad's side: a patch is then a tile.
 const WIDEST: i32 = 4;
 /// How wide a quad should be, in texels of the shadow map: silhouettes bend by a hundredth of that over a hill that is a hundred wide.
-const QUAD_IN_MAP: f32 = 8.0;
+const QUAD_IN_MAP: f32 = 16.0;
 /// Quads that a vertex is pushed away from the light; as in `cast.wgsl`.
 const PUSH: f32 = 2.0;
 
@@ -176,6 +176,12 @@ impl LightView {
         QUAD_IN_MAP * self.texel * distance
     }
 
+    /// Whether the map is of where a box stands: not only of what it may cast on.
+    fn covers(&self, low: Vec3, high: Vec3) -> bool {
+        let middle = self.clip_from_ground * (0.5 * (low + high)).extend(1.0);
+        !self.is_sun() || middle.z <= middle.w
+    }
+
     /// Whether a box may be seen in the map, or cast into it from before its near plane.
     fn sees(&self, low: Vec3, high: Vec3) -> bool {
         if !self.is_sun() {
@@ -214,7 +220,7 @@ fn patches(cache: &Cache, light: &LightView, heights: [f32; 2], patches: &mut Ve
         if level.outer <= 0.0 || too_fine {
             continue;
         }
-        let least = if inner == 0.0 { 1 } else { 2 };
+        let finest = inner == 0.0;
         let rim = level.outer * texel;
         let tile = i32::from(QUADS) * WIDEST;
         for corner in squares(level.low, level.high, tile) {
@@ -227,6 +233,7 @@ fn patches(cache: &Cache, light: &LightView, heights: [f32; 2], patches: &mut Ve
                 continue;
             }
             let wanted = light.quad_at(light.place.truncate().clamp(low, high));
+            let least = if finest && light.covers(low, high) { 1 } else { WIDEST };
             let quad = [WIDEST, 2].into_iter().find(|quad| *quad as f32 * texel <= wanted).unwrap_or(1).max(least);
             let side = i32::from(QUADS) * quad;
             let end = corner.map(|c| c + tile);
