@@ -202,7 +202,9 @@ fn penumbra(radius: f32) -> f32 {
         [("step".to_string(), horizon_field::field::HeightImage::from_png(&png).unwrap())].into_iter().collect();
     let (_, picture) = shown(|stage| {
         let sun = Sun { azimuth: -std::f32::consts::FRAC_PI_2, elevation: 0.25, ..default() };
-        stage.world().spawn((DirectionalLight { illuminance: 1e5, ..default() }, sun.transform()));
+        stage
+            .world()
+            .spawn((DirectionalLight { illuminance: 1e5, shadow_maps_enabled: true, ..default() }, sun.transform()));
         stage.world().spawn((terrain, air(radius)));
         let camera = stage.camera;
         stage.world().get_mut::<HorizonCamera>(camera).unwrap().debug = DebugView::Light;
