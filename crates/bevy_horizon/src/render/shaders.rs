@@ -8,7 +8,7 @@ use bevy::asset::{Assets, Handle};
 use bevy::shader::Shader;
 use horizon_field::stamp;
 use horizon_light::models::{gradient, shaders as light};
-use horizon_light::sun;
+use horizon_light::{sun, water as water_light};
 
 use crate::world::SkyModel;
 
@@ -19,6 +19,8 @@ const SUNLIT: &str = include_str!("passes/sunlit.wgsl");
 const MOTION: &str = include_str!("passes/motion.wgsl");
 const VIEW: &str = include_str!("passes/view.wgsl");
 const AIR_VIEW: &str = include_str!("air/air_view.wgsl");
+const SKYLIGHT: &str = include_str!("passes/skylight_air.wgsl");
+const GRADIENT_AIR: &str = include_str!("passes/gradient_air.wgsl");
 const PRESENT_HDR: &str = "fn present(colour: vec4<f32>) -> vec4<f32> {\n    return colour;\n}\n";
 const DEPTH_SINGLE: &str = "@group(0) @binding(2) var depth_texture: texture_depth_2d;\n\
     fn depth_samples() -> i32 {\n    return 1;\n}\nfn depth_at(at: vec2<i32>, sample_index: i32) -> f32 {\n    return textureLoad(depth_texture, at, 0);\n}\n";
@@ -45,6 +47,8 @@ pub enum Source {
     Shade { deferred: bool, multisampled: bool, air: bool },
     /// The ground in shadow maps; with holes in it.
     Cast { holes: bool },
+    /// Water; with waves, among ground.
+    Water { sky: WaterSky, multisampled: bool, waves: bool, ground: bool },
     /// The simplest air.
     Gradient { ldr: bool, multisampled: bool },
     /// The air by a model that has tables.
@@ -67,6 +71,16 @@ pub enum Beside {
     Surfaces,
 }
 
+/// What water mirrors where nothing is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum WaterSky {
+    /// The ambient light.
+    Nothing,
+    Gradient,
+    /// The sky's table.
+    Air,
+}
+
 /// Models that have tables.
 const MODELS: [SkyModel; 3] = [SkyModel::Single, SkyModel::Fast, SkyModel::Full];
 const EITHER: [bool; 2] = [false, true];
@@ -86,6 +100,12 @@ impl Source {
                 all.push(Self::Shade { deferred: false, multisampled: a, air: b });
             }
             all.extend([Self::Heat { ldr: a }, Self::Shade { deferred: true, multisampled: false, air: a }]);
+        }
+        for sky in [WaterSky::Nothing, WaterSky::Gradient, WaterSky::Air] {
+            for bits in 0..8 {
+                let bit = |i: u32| bits >> i & 1 != 0;
+                all.push(Self::Water { sky, multisampled: bit(2), waves: bit(1), ground: bit(0) });
+            }
         }
         for ldr in EITHER {
             for multisampled in EITHER {
@@ -112,6 +132,9 @@ impl Source {
             Self::Shade { deferred, multisampled, air } => 0x18 + bits(&[deferred, multisampled, air]),
             Self::Gradient { ldr, multisampled } => 0x20 + bits(&[ldr, multisampled]),
             Self::Air { model, ldr, multisampled } => 0x30 + 4 * model as u128 + bits(&[ldr, multisampled]),
+            Self::Water { sky, multisampled, waves, ground } => {
+                0x40 + 8 * sky as u128 + bits(&[multisampled, waves, ground])
+            }
         }
     }
 
@@ -137,6 +160,7 @@ impl Source {
             Self::Heat { .. } => "heat",
             Self::Shade { deferred: false, .. } => "shade_forward",
             Self::Shade { deferred: true, .. } => "shade_deferred",
+            Self::Water { .. } => "water",
             Self::Gradient { multisampled: false, .. } => "sky_gradient",
             Self::Gradient { multisampled: true, .. } => "sky_gradient_multisampled",
             Self::Air { multisampled: false, .. } => "sky_air",
@@ -162,11 +186,13 @@ impl Source {
             Self::Heat { ldr } => heat(ldr),
             Self::Shade { deferred, multisampled, air } => shade(deferred, multisampled, air),
             Self::Gradient { ldr, multisampled } => {
-                [&sky_common(ldr, multisampled), gradient::WGSL, include_str!("passes/sky_gradient.wgsl")].join("\n")
+                let parts = [gradient::WGSL, GRADIENT_AIR, include_str!("passes/sky_gradient.wgsl")];
+                [&[sky_common(ldr, multisampled).as_str()], &parts[..]].concat().join("\n")
             }
             Self::Air { model, ldr, multisampled } => {
                 [&sky_common(ldr, multisampled), &air_model(model), include_str!("passes/sky_air.wgsl")].join("\n")
             }
+            Self::Water { sky, multisampled, waves, ground } => water(sky, multisampled, waves, ground),
             Self::Transmittance => [light::BASE, include_str!("air/transmittance_table.wgsl")].join("\n"),
             Self::Moments { first: true } => {
                 let parts =
@@ -237,7 +263,7 @@ fn heat(ldr: bool) -> String {
 fn shade(deferred: bool, multisampled: bool, air: bool) -> String {
     let daylight = if air {
         let parts = [light::BASE, light::TRANSMITTANCE, light::HARMONICS, sun::WGSL, AIR_VIEW];
-        [&parts[..], &[include_str!("passes/daylight_air.wgsl")]].concat().join("\n")
+        [&parts[..], &[include_str!("passes/daylight_air.wgsl"), SKYLIGHT]].concat().join("\n")
     } else {
         include_str!("passes/daylight_plain.wgsl").to_owned()
     };
@@ -248,6 +274,35 @@ fn shade(deferred: bool, multisampled: bool, air: bool) -> String {
     let bindings = include_str!("passes/shade_bindings.wgsl");
     let parts = [bindings, VIEW, SURFACE, SUN_SEEN, LOOK, SUNLIT, depth, &daylight, shade, entry];
     parts.join("\n").replace("@group(0)", "@group(2)")
+}
+
+/// Bevy's group 0 comes first: ours is 1.
+fn water(sky: WaterSky, multisampled: bool, waves: bool, ground: bool) -> String {
+    let depth = if multisampled { DEPTH_MULTISAMPLED } else { DEPTH_SINGLE };
+    let mut parts = vec![VIEW, depth, water_light::WGSL];
+    let grid = format!("const WAVE_GRID: f32 = {}.0;\n", horizon_field::waves::GRID);
+    parts.extend([grid.as_str(), include_str!("passes/water_bodies.wgsl")]);
+    parts.push(if waves { include_str!("passes/water_waves.wgsl") } else { include_str!("passes/water_still.wgsl") });
+    match sky {
+        WaterSky::Nothing => parts.push(include_str!("passes/water_sky_none.wgsl")),
+        WaterSky::Gradient => {
+            parts.extend([gradient::WGSL, GRADIENT_AIR, include_str!("passes/water_sky_gradient.wgsl")]);
+        }
+        WaterSky::Air => {
+            let tables = [light::SKY_VIEW, SKYLIGHT];
+            parts.extend([light::BASE, light::HARMONICS, sun::WGSL, AIR_VIEW, include_str!("air/aerial.wgsl")]);
+            parts.extend([&tables[..], &[include_str!("passes/water_sky.wgsl")]].concat());
+        }
+    }
+    if ground {
+        parts.extend([UNCOUNTED, SURFACE, SUN_SEEN, LOOK, SUNLIT, include_str!("cache/march.wgsl")]);
+        parts.push(include_str!("passes/water_ground.wgsl"));
+    } else {
+        parts.push(include_str!("passes/water_no_ground.wgsl"));
+    }
+    parts.extend([include_str!("passes/water_sun.wgsl"), include_str!("passes/water_mirror.wgsl")]);
+    parts.push(include_str!("passes/water.wgsl"));
+    parts.join("\n").replace("@group(0)", "@group(1)")
 }
 
 fn sky_common(ldr: bool, multisampled: bool) -> String {
@@ -271,8 +326,8 @@ fn air_model(model: SkyModel) -> String {
 /// shading languages. `kernel` is a terrain's, from [`CompiledMaterial::kernel`](horizon_field::material::CompiledMaterial::kernel).
 pub fn shader_sources(kernel: &str) -> Vec<(&'static str, String)> {
     let alone = |source: &Source| {
-        use Source::{Air, Gradient, Heat, Shade};
-        !matches!(source, Shade { .. } | Heat { ldr: true } | Gradient { ldr: true, .. } | Air { ldr: true, .. })
+        use Source::{Air, Gradient, Heat, Shade, Water};
+        !matches!(source, Shade { .. } | Water { .. } | Heat { ldr: true } | Gradient { ldr: true, .. } | Air { ldr: true, .. })
     };
     let own = Source::all().into_iter().filter(alone).map(|source| (source.name(), source.text()));
     [("fill", fill_source(kernel))].into_iter().chain(own).collect()
