@@ -22,12 +22,28 @@ use bevy_reflect::std_traits::ReflectDefault;
 use serde::{Deserialize, Serialize};
 
 mod cascade;
+mod exact;
+mod fbm;
+mod lattice;
 mod models;
+mod resolve;
 mod sea;
+mod sines;
+mod spectrum;
+mod surface;
+mod tiles;
+mod transform;
+
+#[cfg(test)]
+mod tests;
 
 pub use cascade::{Cascade, Wave};
+pub use exact::Exact;
 pub use models::{FbmWaves, Gerstner, Sines, Spectrum};
 pub use sea::Sea;
+pub use surface::SeaSurface;
+pub use tiles::{Moments, STEEPEST, Tile, Tiles, tick};
+pub use transform::roots;
 
 use crate::FieldError;
 use crate::field::check::check_numbers;
