@@ -16,9 +16,11 @@ pub mod place;
 pub mod real;
 pub mod stamp;
 pub mod truth;
+pub mod waves;
 
 pub use field::{Bound, Compiled, Field, FieldError};
 pub use lattice::{LatticePoint, Layer};
 pub use place::{CELL, Place};
 pub use real::{Jet, Real};
 pub use stamp::Stamps;
+pub use waves::{Sea, Waves};
