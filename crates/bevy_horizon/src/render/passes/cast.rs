@@ -18,12 +18,14 @@ use bevy::render::render_resource::{
 use bevy::render::renderer::{RenderContext, RenderDevice, RenderQueue, ViewQuery};
 use bevy::render::view::ExtractedView;
 
-use self::patches::{LightView, QUADS, patches};
+use self::patches::{LightView, patches};
 use super::super::cache::Caches;
 use super::super::extract::ExtractedWorld;
 use super::super::shaders::Source;
 use super::super::uniforms::ClipmapUniform;
 use super::super::view::ViewGround;
+
+pub use self::patches::{PUSH, QUADS};
 
 mod patches;
 
