@@ -17,7 +17,7 @@ const QUAD_IN_MAP: f32 = 16.0;
 pub const PUSH: f32 = 2.0;
 
 /// `Patch` of `cast.wgsl`.
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Patch {
     level: u32,
