@@ -29,7 +29,7 @@ use crate::HorizonSystems;
 use crate::camera::HorizonCamera;
 
 pub use air::sky_table_bytes;
-pub use shaders::shader_sources;
+pub use shaders::{shader_constants, shader_sources};
 
 /// The picture of the worlds, in every `Camera3d` with a [`HorizonCamera`]. Nothing is built on the device before a
 /// world is there.

@@ -6,10 +6,13 @@ use std::marker::PhantomData;
 use bevy::asset::uuid::Uuid;
 use bevy::asset::{Assets, Handle};
 use bevy::shader::Shader;
+use horizon_field::material::compile::CUTOFF;
 use horizon_field::stamp;
 use horizon_light::models::{gradient, shaders as light};
 use horizon_light::{sun, water as water_light};
 
+use super::cache::clipmap::{BOUNDS_HEAD, LIGHTS_AT, MAX_LEVELS, TILE, TILE_BOUNDS, TILE_LOOKS, TILE_TEXELS};
+use super::passes::{CAST_PUSH, CAST_QUADS};
 use crate::world::SkyModel;
 
 const SURFACE: &str = include_str!("cache/surface.wgsl");
@@ -175,12 +178,12 @@ impl Source {
 
     fn text(self) -> String {
         match self {
-            Self::Pyramid => [SURFACE, include_str!("cache/pyramid.wgsl")].join("\n"),
-            Self::Light => [SURFACE, SUN_SEEN, include_str!("cache/light.wgsl")].join("\n"),
-            Self::Clearance => [VIEW, SURFACE, include_str!("passes/clearance.wgsl")].join("\n"),
-            Self::Cast { holes: false } => [SURFACE, include_str!("passes/cast.wgsl")].join("\n"),
+            Self::Pyramid => [&surface(), include_str!("cache/pyramid.wgsl")].join("\n"),
+            Self::Light => [&surface(), SUN_SEEN, include_str!("cache/light.wgsl")].join("\n"),
+            Self::Clearance => [VIEW, &surface(), include_str!("passes/clearance.wgsl")].join("\n"),
+            Self::Cast { holes: false } => [&surface(), include_str!("passes/cast.wgsl")].join("\n"),
             Self::Cast { holes: true } => {
-                [SURFACE, LOOK, include_str!("passes/cast.wgsl"), include_str!("passes/cast_holes.wgsl")].join("\n")
+                [&surface(), LOOK, include_str!("passes/cast.wgsl"), include_str!("passes/cast_holes.wgsl")].join("\n")
             }
             Self::Geometry { scaled, beside } => geometry(scaled, beside),
             Self::Heat { ldr } => heat(ldr),
@@ -224,7 +227,24 @@ pub fn add_shaders(shaders: &mut Assets<Shader>) {
 
 /// The fill pass behind the kernel of a terrain's height and material, and the stamps.
 pub fn fill_source(kernel: &str) -> String {
-    [kernel, stamp::WGSL, include_str!("cache/fill.wgsl")].join("\n")
+    [&shader_constants(), kernel, stamp::WGSL, include_str!("cache/fill.wgsl")].join("\n")
+}
+
+/// What Rust and the shaders both count by: declared in Rust, and told to the shaders that lay out or read tiles, or cast the ground.
+pub fn shader_constants() -> String {
+    let (bits, vertices) = (TILE.ilog2(), CAST_QUADS + 1);
+    format!(
+        "const MAX_LEVELS: u32 = {MAX_LEVELS}u;\nconst TILE: u32 = {TILE}u;\nconst TILE_BITS: u32 = {bits}u;\n\
+         const TILE_TEXELS: u32 = {TILE_TEXELS}u;\nconst TILE_BOUNDS: u32 = {TILE_BOUNDS}u;\n\
+         const BOUNDS_HEAD: u32 = {BOUNDS_HEAD}u;\nconst TILE_LOOKS: u32 = {TILE_LOOKS}u;\n\
+         const LIGHTS_AT: u32 = {LIGHTS_AT}u;\nconst CUTOFF: f32 = {CUTOFF:?};\n\
+         const CAST_VERTICES: u32 = {vertices}u;\nconst CAST_PUSH: f32 = {CAST_PUSH:?};\n"
+    )
+}
+
+/// The drawn surface, behind what it counts by.
+fn surface() -> String {
+    [&shader_constants(), SURFACE].join("\n")
 }
 
 fn present(ldr: bool) -> &'static str {
@@ -236,7 +256,7 @@ fn rays(counted: bool) -> String {
     [
         if counted { COUNTED } else { UNCOUNTED },
         VIEW,
-        SURFACE,
+        &surface(),
         LOOK,
         include_str!("cache/march.wgsl"),
         include_str!("passes/clear_start.wgsl"),
@@ -272,7 +292,8 @@ fn shade(deferred: bool, multisampled: bool, air: bool) -> String {
         if deferred { include_str!("passes/shade_deferred.wgsl") } else { include_str!("passes/shade_forward.wgsl") };
     let shade = include_str!("passes/shade.wgsl");
     let bindings = include_str!("passes/shade_bindings.wgsl");
-    let parts = [bindings, VIEW, SURFACE, SUN_SEEN, LOOK, SUNLIT, depth, &daylight, shade, entry];
+    let surface = surface();
+    let parts = [bindings, VIEW, &surface, SUN_SEEN, LOOK, SUNLIT, depth, &daylight, shade, entry];
     parts.join("\n").replace("@group(0)", "@group(2)")
 }
 

@@ -31,7 +31,7 @@ use bevy::render::renderer::RenderDevice;
 use bevy::render::texture::{FallbackImage, GpuImage};
 use bevy::render::view::{ExtractedView, ViewDepthTexture, ViewUniforms};
 
-pub use self::cast::{CastPipeline, prepare_casts};
+pub use self::cast::{CastPipeline, PUSH as CAST_PUSH, QUADS as CAST_QUADS, prepare_casts};
 pub use self::clearance::{ClearancePipeline, Table, ViewClearance};
 pub use self::geometry::{GeometryPipelines, ViewGeometry, bind_geometry, prepare_geometry};
 pub use self::pipelines::PassPipelines;
