@@ -52,7 +52,7 @@ pub mod prelude {
     pub use crate::camera::{DebugView, HorizonCamera};
     #[cfg(feature = "picking")]
     pub use crate::picking::HorizonPickingPlugin;
-    pub use crate::query::{GroundHit, HorizonQuery};
+    pub use crate::query::{GroundHit, HorizonQuery, Surroundings, WaterSurface};
     #[cfg(feature = "render")]
     pub use crate::render::ready::{WorldProgress, WorldReady};
     pub use crate::scene::{HorizonWorld, WorldFile};

@@ -1,10 +1,13 @@
 //! Questions that the world answers on the CPU, in the same frame, without asking the device.
 
+mod water;
+
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use horizon_field::CELL;
 use horizon_field::march::{Anchored, Cast, Ray, Surface};
 
+pub use self::water::{Surroundings, WaterSurface};
 use crate::world::{CompiledStamps, CompiledTerrain, WorldOrigin};
 
 /// Asks the ground: height, normal, slope, ray cast. Positions are Bevy's, in metres; the answer is that of the full
@@ -31,6 +34,7 @@ use crate::world::{CompiledStamps, CompiledTerrain, WorldOrigin};
 pub struct HorizonQuery<'w, 's> {
     terrains:
         Query<'w, 's, (Entity, &'static CompiledTerrain, Option<&'static CompiledStamps>, &'static GlobalTransform)>,
+    waters: water::Waters<'w, 's>,
     origin: Res<'w, WorldOrigin>,
 }
 

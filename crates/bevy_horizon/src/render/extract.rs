@@ -221,13 +221,15 @@ const MOST_SEAS: usize = 4;
 
 /// Water is drawn only where the world is: after [`extract_world`].
 pub fn extract_waters(mut world: ResMut<ExtractedWorld>, mut seas: ResMut<ExtractedSeas>, waters: Extract<Waters>) {
+    let origin = WorldOrigin(world.origin);
     world.waters.clear();
     seas.0.clear();
     for (compiled, place, transform, visibility, layers) in &waters {
         if !visibility.get() {
             continue;
         }
-        let sea = compiled.sea.as_ref().filter(|sea| !sea.is_still()).and_then(|sea| {
+        let sea = compiled.surface.as_ref().and_then(|surface| {
+            let sea = surface.sea();
             let known = seas.0.iter().position(|other| Arc::ptr_eq(other, sea));
             let index = known.or_else(|| {
                 (seas.0.len() < MOST_SEAS).then(|| {
@@ -240,7 +242,7 @@ pub fn extract_waters(mut world: ResMut<ExtractedWorld>, mut seas: ResMut<Extrac
         world.waters.push(ExtractedWater {
             water: compiled.water.clone(),
             sea,
-            translation: place.map_or(transform.translation(), |place| WorldOrigin(world.origin).position(&place.0)),
+            translation: place.map_or(transform.translation(), |place| origin.position(&place.0)),
             layers: layers.cloned().unwrap_or_default(),
         });
     }

@@ -16,6 +16,7 @@ mod truth;
 mod uniforms;
 mod view;
 mod water;
+mod waves;
 
 use bevy::core_pipeline::schedule::camera_driver;
 use bevy::prelude::*;
@@ -72,6 +73,7 @@ impl Plugin for HorizonRenderPlugin {
             .init_resource::<passes::ShadePipelines>()
             .init_resource::<passes::WaterPipelines>()
             .init_resource::<water::HorizonWaters>()
+            .init_resource::<waves::ExtractedSeas>()
             .init_resource::<passes::CastPipeline>()
             .init_resource::<passes::ClearancePipeline>()
             .init_resource::<air::AirTables>()

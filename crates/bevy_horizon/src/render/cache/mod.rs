@@ -26,7 +26,7 @@ pub(crate) use self::grain::grain;
 pub(crate) use self::pipelines::CachePipelines;
 use super::air::ViewAir;
 use super::extract::{ExtractedAtmosphere, ExtractedHorizonCamera, ExtractedTerrain, ExtractedWorld};
-use super::passes::{ClearancePipeline, ViewClearance, ViewGeometry, ViewPasses, ViewShade};
+use super::passes::{ClearancePipeline, ViewClearance, ViewGeometry, ViewPasses, ViewShade, ViewWater};
 use super::ready::Progress;
 use super::uniforms::{GradientUniform, SunUniform};
 use super::view::{ViewBefore, ViewGround, ViewSky};
