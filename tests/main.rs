@@ -3,6 +3,7 @@
 mod anchoring;
 mod bodies;
 mod compose;
+mod decals;
 mod device;
 mod editing;
 mod engine;
@@ -24,4 +25,5 @@ mod shadows;
 mod sky;
 mod stability;
 mod stamps;
+mod targets;
 mod worlds;

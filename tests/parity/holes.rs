@@ -1,5 +1,6 @@
 //! Rays through holes: the shipped march, over two levels made by hand, against a march by brute force over the same drawn surface.
 
+use bevy_horizon::render::shader_constants;
 use horizon_field::field::arbitrary::Random;
 
 use crate::device;
@@ -205,7 +206,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     found[id.x] = vec4<f32>(hit.t, f32(hit.steps), 0.0, 0.0);
 }
 ";
-    let source = ["const HEAT: bool = true;", SURFACE, LOOK, MARCH, main].join("\n");
+    let source = ["const HEAT: bool = true;", &shader_constants(), SURFACE, LOOK, MARCH, main].join("\n");
     let source = source.replace("var<uniform> clipmap", "var<storage, read> clipmap");
     let [clipmap, heights, bounds, looks] = buffers;
     let groups: [&[&[u8]]; 1] = [&[clipmap, heights, bounds, looks, bytemuck::cast_slice(rays), &holes.to_le_bytes()]];

@@ -57,11 +57,13 @@ pub mod prelude {
     pub use crate::render::ready::{WorldProgress, WorldReady};
     pub use crate::scene::{HorizonWorld, WorldFile};
     pub use crate::world::{
-        Atmosphere, SkyGradient, SkyModel, Stamp, StampPlace, Sun, Sunlight, Terrain, TerrainMaterial, TimeOfDay,
-        WorldOrigin,
+        Atmosphere, SkyGradient, SkyModel, Stamp, StampPlace, Sun, Sunlight, Terrain, TerrainMaterial, TimeOfDay, Water,
+        WaterDisc, WaterOutline, WaterRectangle, WorldOrigin,
     };
     pub use crate::{HorizonPlugins, HorizonSystems};
+    pub use horizon_field::waves::Waves;
     pub use horizon_field::{Field, Place};
+    pub use horizon_light::water::WaterOptics;
 }
 
 /// Everything. Parts can be disabled: `HorizonPlugins.build().disable::<HorizonSkyPlugin>()`.
@@ -96,6 +98,8 @@ impl Plugin for HorizonWorldPlugin {
             .register_type::<world::Terrain>()
             .register_type::<world::Stamp>()
             .register_type::<world::Atmosphere>()
+            .register_type::<world::Water>()
+            .add_message::<world::WaterRejected>()
             .add_message::<world::TerrainRejected>()
             .add_message::<world::StampRejected>()
             .add_message::<world::GroundChanged>()
@@ -106,11 +110,13 @@ impl Plugin for HorizonWorldPlugin {
                 (
                     (world::compile_terrain, world::compile_stamps.after(TransformSystems::Propagate)).chain(),
                     (world::brighten, world::compile_atmospheres).chain(),
+                    world::compile_waters,
                 )
                     .in_set(HorizonSystems::Compile),
             )
             .add_systems(Update, world::turn_suns.run_if(resource_exists::<Time>))
             .add_observer(world::forget_terrain)
-            .add_observer(world::forget_atmosphere);
+            .add_observer(world::forget_atmosphere)
+            .add_observer(world::forget_water);
     }
 }

@@ -12,14 +12,16 @@ use horizon_field::FieldError;
 use horizon_field::field::HeightImage;
 use horizon_field::field::check::MAX_DEPTH;
 use horizon_field::material::MaterialError;
+use horizon_field::Place;
 use horizon_field::stamp::{Placed, StampError};
+use horizon_field::waves::WavesError;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::HorizonSystems;
 use crate::world::{
-    Atmosphere, CompiledTerrain, ParamError, Stamp, StampPlace, Sun, Terrain, TerrainError, check_atmosphere,
-    check_params,
+    Atmosphere, CompiledTerrain, ParamError, Stamp, StampPlace, Sun, Terrain, TerrainError, Water, WaterError, WaterPlace,
+    check_atmosphere, check_params,
 };
 #[cfg(feature = "render")]
 use crate::world::{SkyModel, Sunlight, illuminance};
@@ -42,12 +44,27 @@ pub struct WorldFile {
     /// The sun. Default: none, the game's own lights are used.
     #[serde(default)]
     pub sun: Option<Sun>,
+    /// Bodies of water. Default: none.
+    #[serde(default)]
+    pub waters: Vec<PlacedWater>,
     /// Local edits of the ground. Default: none.
     #[serde(default)]
     pub stamps: Vec<Placed>,
     /// A good place to look from.
     #[serde(default)]
     pub view: Viewpoint,
+}
+
+/// A body of water, and where it is.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct PlacedWater {
+    /// Its level above the ground's zero, in metres. Default: 0.
+    pub level: f32,
+    /// Its middle, as x and z, in metres. Default: the origin.
+    pub middle: [f32; 2],
+    /// The water.
+    pub water: Water,
 }
 
 /// A place to look from. The world itself does not use it.
@@ -158,11 +175,26 @@ impl WorldFile {
         if let Some(sun) = &self.sun {
             check_params("sun", sun)?;
         }
+        for (i, PlacedWater { level, middle: [x, z], water }) in self.waters.iter().enumerate() {
+            water.check(&format!("waters[{i}].water"))?;
+            for (name, value) in [("level", level), ("middle[0]", x), ("middle[1]", z)] {
+                check_length(&format!("waters[{i}].{name}"), *value)?;
+            }
+        }
         for (i, stamp) in self.stamps.iter().enumerate() {
             stamp.check(&format!("stamps[{i}]"))?;
         }
         Ok(())
     }
+}
+
+/// A length in a world file, in metres.
+fn check_length(field: &str, value: f32) -> Result<(), ParamError> {
+    let (min, max) = (-1e7, 1e7);
+    if (min as f32..=max as f32).contains(&value) {
+        return Ok(());
+    }
+    Err(ParamError { field: field.into(), value: value.into(), min, max, unit: "m" })
 }
 
 /// RON without ceremony: `Fractal(wavelength: 4000.0)`, and no `Some`.
@@ -177,10 +209,12 @@ fn options() -> ron::Options {
 /// The line on which a refused parameter stands: the first one that has its name with its value.
 fn line_of(text: &str, error: &TerrainError) -> Option<usize> {
     let (path, value) = match error {
-        TerrainError::Param(ParamError { field, value, .. }) => (field.as_str(), Some(*value)),
+        TerrainError::Param(ParamError { field, value, .. })
+        | TerrainError::Water(WaterError::Param(ParamError { field, value, .. })) => (field.as_str(), Some(*value)),
         TerrainError::Material(MaterialError::TooManyLayers { .. }) => ("layers", None),
         TerrainError::Field(error)
         | TerrainError::Stamp(StampError::Param(error))
+        | TerrainError::Water(WaterError::Waves(WavesError::Param(error)))
         | TerrainError::Material(MaterialError::Value(error) | MaterialError::Mask { source: error, .. }) => {
             match error {
                 FieldError::OutOfRange { path, value, .. } | FieldError::NotFinite { path, value } => {
@@ -251,7 +285,7 @@ impl AssetLoader for WorldLoader {
     }
 }
 
-/// Put it on an entity, and the file's terrain and air appear on it, its sun and its stamps as children. When the file changes, they do.
+/// Put it on an entity, and the file's terrain and air appear on it, its sun, its waters and its stamps as children. When the file changes, they do.
 /// A file with a sun also sets Bevy's `GlobalAmbientLight`: to the sky's light, or without air that makes it, to the sun's `ambient`.
 #[derive(Component, Clone, Debug, Default, Reflect)]
 #[reflect(Component, Default, Clone)]
@@ -268,6 +302,11 @@ pub struct WorldSun;
 #[derive(Component, Clone, Copy, Debug, Default, Reflect)]
 #[reflect(Component, Default, Clone)]
 pub struct WorldStamp;
+
+/// A body of water that a world file brought, under its [`HorizonWorld`].
+#[derive(Component, Clone, Copy, Debug, Default, Reflect)]
+#[reflect(Component, Default, Clone)]
+pub struct WorldWater;
 
 /// A world file was put into components.
 #[derive(Message, Clone, Copy, Debug, PartialEq, Eq)]
@@ -310,7 +349,7 @@ fn apply_worlds(
     mut events: MessageReader<AssetEvent<WorldFile>>,
     files: Res<Assets<WorldFile>>,
     worlds: Query<(Entity, Ref<HorizonWorld>, Option<&Terrain>, Option<&Children>)>,
-    brought: Query<(), Or<(With<WorldSun>, With<WorldStamp>)>>,
+    brought: Query<(), Or<(With<WorldSun>, With<WorldStamp>, With<WorldWater>)>>,
     mut loaded: MessageWriter<WorldLoaded>,
 ) {
     let changed: Vec<_> = events
@@ -340,6 +379,10 @@ fn apply_worlds(
         loaded.write(WorldLoaded { entity: owner });
         for child in children.into_iter().flatten().filter(|child| brought.contains(**child)) {
             commands.entity(*child).despawn();
+        }
+        for PlacedWater { level, middle: [x, z], water } in &file.waters {
+            let place = Place::ORIGIN.translated([*x, *level, *z].map(f64::from));
+            commands.spawn((WorldWater, water.clone(), WaterPlace(place), ChildOf(owner)));
         }
         for Placed { place, heading, edit } in &file.stamps {
             let at = StampPlace { place: *place, heading: *heading };

@@ -14,11 +14,14 @@ use horizon_field::{Place, Stamps};
 use super::able::Able;
 use super::air::ViewAir;
 use super::kernel::TerrainKernel;
-use super::passes::{ViewClearance, ViewGeometry, ViewPasses, ViewShade};
+use super::passes::{ViewClearance, ViewGeometry, ViewPasses, ViewShade, ViewWater};
 use super::view::{ViewBefore, ViewGround};
+use super::water::ExtractedWater;
+use super::waves::ExtractedSeas;
 use crate::camera::HorizonCamera;
 use crate::world::{
-    Atmosphere, CompiledAtmosphere, CompiledStamps, CompiledTerrain, Sunlight, TerrainFields, WorldOrigin,
+    Atmosphere, CompiledAtmosphere, CompiledStamps, CompiledTerrain, CompiledWater, Sunlight, TerrainFields,
+    WaterPlace, WorldOrigin,
 };
 
 /// The worlds, as they stand in this frame.
@@ -26,6 +29,7 @@ use crate::world::{
 pub struct ExtractedWorld {
     pub terrains: Vec<ExtractedTerrain>,
     pub atmospheres: Vec<ExtractedAtmosphere>,
+    pub waters: Vec<ExtractedWater>,
     pub sun: Option<ExtractedSun>,
     pub origin: Place,
     pub settings: super::cache::CacheSettings,
@@ -49,6 +53,11 @@ impl ExtractedWorld {
     pub fn self_shadow(&self) -> u32 {
         let below = self.sun.is_some_and(|sun| sun.shadows) && self.risen_sun().is_none();
         if below { 2 } else { u32::from(self.shading_sun().is_some()) }
+    }
+
+    /// Whether a camera sees water.
+    pub fn has_water(&self, layers: &RenderLayers) -> bool {
+        self.waters.iter().any(|water| layers.intersects(&water.layers))
     }
 
     /// The air that a camera sees, by its index.
@@ -99,8 +108,17 @@ pub struct ExtractedHorizonCamera {
 }
 
 impl SyncComponent for HorizonCamera {
-    type Target =
-        (ExtractedHorizonCamera, ViewGround, ViewBefore, ViewAir, ViewPasses, ViewGeometry, ViewShade, ViewClearance);
+    type Target = (
+        ExtractedHorizonCamera,
+        ViewGround,
+        ViewBefore,
+        ViewAir,
+        ViewPasses,
+        ViewGeometry,
+        ViewShade,
+        ViewClearance,
+        ViewWater,
+    );
 }
 
 type Terrains<'w, 's> = Query<
@@ -192,6 +210,39 @@ pub fn extract_atmospheres(
                 layers: layers.cloned().unwrap_or_default(),
             });
         }
+    }
+}
+
+type Waters<'w, 's> =
+    Query<'w, 's, (&'static CompiledWater, Option<&'static WaterPlace>, &'static GlobalTransform, &'static InheritedVisibility, Option<&'static RenderLayers>)>;
+
+/// Seas whose waves the tiles have room for.
+const MOST_SEAS: usize = 4;
+
+/// Water is drawn only where the world is: after [`extract_world`].
+pub fn extract_waters(mut world: ResMut<ExtractedWorld>, mut seas: ResMut<ExtractedSeas>, waters: Extract<Waters>) {
+    world.waters.clear();
+    seas.0.clear();
+    for (compiled, place, transform, visibility, layers) in &waters {
+        if !visibility.get() {
+            continue;
+        }
+        let sea = compiled.sea.as_ref().filter(|sea| !sea.is_still()).and_then(|sea| {
+            let known = seas.0.iter().position(|other| Arc::ptr_eq(other, sea));
+            let index = known.or_else(|| {
+                (seas.0.len() < MOST_SEAS).then(|| {
+                    seas.0.push(sea.clone());
+                    seas.0.len() - 1
+                })
+            })?;
+            Some((index, sea.clone()))
+        });
+        world.waters.push(ExtractedWater {
+            water: compiled.water.clone(),
+            sea,
+            translation: place.map_or(transform.translation(), |place| WorldOrigin(world.origin).position(&place.0)),
+            layers: layers.cloned().unwrap_or_default(),
+        });
     }
 }
 

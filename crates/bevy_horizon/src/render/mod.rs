@@ -15,6 +15,7 @@ mod shaders;
 mod truth;
 mod uniforms;
 mod view;
+mod water;
 
 use bevy::core_pipeline::schedule::camera_driver;
 use bevy::prelude::*;
@@ -28,7 +29,7 @@ use crate::HorizonSystems;
 use crate::camera::HorizonCamera;
 
 pub use air::sky_table_bytes;
-pub use shaders::shader_sources;
+pub use shaders::{shader_constants, shader_sources};
 
 /// The picture of the worlds, in every `Camera3d` with a [`HorizonCamera`]. Nothing is built on the device before a
 /// world is there.
@@ -69,6 +70,8 @@ impl Plugin for HorizonRenderPlugin {
             .init_resource::<passes::PassPipelines>()
             .init_resource::<passes::GeometryPipelines>()
             .init_resource::<passes::ShadePipelines>()
+            .init_resource::<passes::WaterPipelines>()
+            .init_resource::<water::HorizonWaters>()
             .init_resource::<passes::CastPipeline>()
             .init_resource::<passes::ClearancePipeline>()
             .init_resource::<air::AirTables>()
@@ -76,7 +79,7 @@ impl Plugin for HorizonRenderPlugin {
             .init_resource::<view::HorizonViews>()
             .add_systems(
                 ExtractSchedule,
-                ((extract::extract_world, extract::extract_cameras).chain(), truth::extract_truths),
+                ((extract::extract_world, extract::extract_waters, extract::extract_cameras).chain(), truth::extract_truths),
             )
             .add_systems(
                 Render,
@@ -85,7 +88,7 @@ impl Plugin for HorizonRenderPlugin {
             .add_systems(
                 Render,
                 (
-                    passes::read_depth.after(prepare_view_targets).in_set(RenderSystems::PrepareViews),
+                    (passes::read_depth, passes::copy_depth).after(prepare_view_targets).in_set(RenderSystems::PrepareViews),
                     (
                         cache::prepare_caches,
                         air::prepare_airs,
@@ -95,11 +98,18 @@ impl Plugin for HorizonRenderPlugin {
                             passes::prepare_geometry,
                             passes::prepare_shade,
                             passes::prepare_casts,
+                            passes::prepare_waters,
                         ),
                     )
                         .chain()
                         .in_set(RenderSystems::PrepareResources),
-                    (passes::prepare_bind_groups, passes::bind_geometry, passes::bind_shade, air::bind_airs)
+                    (
+                        passes::prepare_bind_groups,
+                        passes::bind_geometry,
+                        passes::bind_shade,
+                        passes::bind_waters,
+                        air::bind_airs,
+                    )
                         .in_set(RenderSystems::PrepareBindGroups),
                 ),
             )

@@ -6,10 +6,13 @@ use std::marker::PhantomData;
 use bevy::asset::uuid::Uuid;
 use bevy::asset::{Assets, Handle};
 use bevy::shader::Shader;
+use horizon_field::material::compile::CUTOFF;
 use horizon_field::stamp;
 use horizon_light::models::{gradient, shaders as light};
-use horizon_light::sun;
+use horizon_light::{sun, water as water_light};
 
+use super::cache::clipmap::{BOUNDS_HEAD, LIGHTS_AT, MAX_LEVELS, TILE, TILE_BOUNDS, TILE_LOOKS, TILE_TEXELS};
+use super::passes::{CAST_PUSH, CAST_QUADS};
 use crate::world::SkyModel;
 
 const SURFACE: &str = include_str!("cache/surface.wgsl");
@@ -19,6 +22,8 @@ const SUNLIT: &str = include_str!("passes/sunlit.wgsl");
 const MOTION: &str = include_str!("passes/motion.wgsl");
 const VIEW: &str = include_str!("passes/view.wgsl");
 const AIR_VIEW: &str = include_str!("air/air_view.wgsl");
+const SKYLIGHT: &str = include_str!("passes/skylight_air.wgsl");
+const GRADIENT_AIR: &str = include_str!("passes/gradient_air.wgsl");
 const PRESENT_HDR: &str = "fn present(colour: vec4<f32>) -> vec4<f32> {\n    return colour;\n}\n";
 const DEPTH_SINGLE: &str = "@group(0) @binding(2) var depth_texture: texture_depth_2d;\n\
     fn depth_samples() -> i32 {\n    return 1;\n}\nfn depth_at(at: vec2<i32>, sample_index: i32) -> f32 {\n    return textureLoad(depth_texture, at, 0);\n}\n";
@@ -45,6 +50,8 @@ pub enum Source {
     Shade { deferred: bool, multisampled: bool, air: bool },
     /// The ground in shadow maps; with holes in it.
     Cast { holes: bool },
+    /// Water; with waves, among ground.
+    Water { sky: WaterSky, multisampled: bool, waves: bool, ground: bool },
     /// The simplest air.
     Gradient { ldr: bool, multisampled: bool },
     /// The air by a model that has tables.
@@ -67,6 +74,16 @@ pub enum Beside {
     Surfaces,
 }
 
+/// What water mirrors where nothing is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum WaterSky {
+    /// The ambient light.
+    Nothing,
+    Gradient,
+    /// The sky's table.
+    Air,
+}
+
 /// Models that have tables.
 const MODELS: [SkyModel; 3] = [SkyModel::Single, SkyModel::Fast, SkyModel::Full];
 const EITHER: [bool; 2] = [false, true];
@@ -86,6 +103,12 @@ impl Source {
                 all.push(Self::Shade { deferred: false, multisampled: a, air: b });
             }
             all.extend([Self::Heat { ldr: a }, Self::Shade { deferred: true, multisampled: false, air: a }]);
+        }
+        for sky in [WaterSky::Nothing, WaterSky::Gradient, WaterSky::Air] {
+            for bits in 0..8 {
+                let bit = |i: u32| bits >> i & 1 != 0;
+                all.push(Self::Water { sky, multisampled: bit(2), waves: bit(1), ground: bit(0) });
+            }
         }
         for ldr in EITHER {
             for multisampled in EITHER {
@@ -112,6 +135,9 @@ impl Source {
             Self::Shade { deferred, multisampled, air } => 0x18 + bits(&[deferred, multisampled, air]),
             Self::Gradient { ldr, multisampled } => 0x20 + bits(&[ldr, multisampled]),
             Self::Air { model, ldr, multisampled } => 0x30 + 4 * model as u128 + bits(&[ldr, multisampled]),
+            Self::Water { sky, multisampled, waves, ground } => {
+                0x40 + 8 * sky as u128 + bits(&[multisampled, waves, ground])
+            }
         }
     }
 
@@ -137,6 +163,7 @@ impl Source {
             Self::Heat { .. } => "heat",
             Self::Shade { deferred: false, .. } => "shade_forward",
             Self::Shade { deferred: true, .. } => "shade_deferred",
+            Self::Water { .. } => "water",
             Self::Gradient { multisampled: false, .. } => "sky_gradient",
             Self::Gradient { multisampled: true, .. } => "sky_gradient_multisampled",
             Self::Air { multisampled: false, .. } => "sky_air",
@@ -151,22 +178,24 @@ impl Source {
 
     fn text(self) -> String {
         match self {
-            Self::Pyramid => [SURFACE, include_str!("cache/pyramid.wgsl")].join("\n"),
-            Self::Light => [SURFACE, SUN_SEEN, include_str!("cache/light.wgsl")].join("\n"),
-            Self::Clearance => [VIEW, SURFACE, include_str!("passes/clearance.wgsl")].join("\n"),
-            Self::Cast { holes: false } => [SURFACE, include_str!("passes/cast.wgsl")].join("\n"),
+            Self::Pyramid => [&surface(), include_str!("cache/pyramid.wgsl")].join("\n"),
+            Self::Light => [&surface(), SUN_SEEN, include_str!("cache/light.wgsl")].join("\n"),
+            Self::Clearance => [VIEW, &surface(), include_str!("passes/clearance.wgsl")].join("\n"),
+            Self::Cast { holes: false } => [&surface(), include_str!("passes/cast.wgsl")].join("\n"),
             Self::Cast { holes: true } => {
-                [SURFACE, LOOK, include_str!("passes/cast.wgsl"), include_str!("passes/cast_holes.wgsl")].join("\n")
+                [&surface(), LOOK, include_str!("passes/cast.wgsl"), include_str!("passes/cast_holes.wgsl")].join("\n")
             }
             Self::Geometry { scaled, beside } => geometry(scaled, beside),
             Self::Heat { ldr } => heat(ldr),
             Self::Shade { deferred, multisampled, air } => shade(deferred, multisampled, air),
             Self::Gradient { ldr, multisampled } => {
-                [&sky_common(ldr, multisampled), gradient::WGSL, include_str!("passes/sky_gradient.wgsl")].join("\n")
+                let parts = [gradient::WGSL, GRADIENT_AIR, include_str!("passes/sky_gradient.wgsl")];
+                [&[sky_common(ldr, multisampled).as_str()], &parts[..]].concat().join("\n")
             }
             Self::Air { model, ldr, multisampled } => {
                 [&sky_common(ldr, multisampled), &air_model(model), include_str!("passes/sky_air.wgsl")].join("\n")
             }
+            Self::Water { sky, multisampled, waves, ground } => water(sky, multisampled, waves, ground),
             Self::Transmittance => [light::BASE, include_str!("air/transmittance_table.wgsl")].join("\n"),
             Self::Moments { first: true } => {
                 let parts =
@@ -198,7 +227,24 @@ pub fn add_shaders(shaders: &mut Assets<Shader>) {
 
 /// The fill pass behind the kernel of a terrain's height and material, and the stamps.
 pub fn fill_source(kernel: &str) -> String {
-    [kernel, stamp::WGSL, include_str!("cache/fill.wgsl")].join("\n")
+    [&shader_constants(), kernel, stamp::WGSL, include_str!("cache/fill.wgsl")].join("\n")
+}
+
+/// What Rust and the shaders both count by: declared in Rust, and told to the shaders that lay out or read tiles, or cast the ground.
+pub fn shader_constants() -> String {
+    let (bits, vertices) = (TILE.ilog2(), CAST_QUADS + 1);
+    format!(
+        "const MAX_LEVELS: u32 = {MAX_LEVELS}u;\nconst TILE: u32 = {TILE}u;\nconst TILE_BITS: u32 = {bits}u;\n\
+         const TILE_TEXELS: u32 = {TILE_TEXELS}u;\nconst TILE_BOUNDS: u32 = {TILE_BOUNDS}u;\n\
+         const BOUNDS_HEAD: u32 = {BOUNDS_HEAD}u;\nconst TILE_LOOKS: u32 = {TILE_LOOKS}u;\n\
+         const LIGHTS_AT: u32 = {LIGHTS_AT}u;\nconst CUTOFF: f32 = {CUTOFF:?};\n\
+         const CAST_VERTICES: u32 = {vertices}u;\nconst CAST_PUSH: f32 = {CAST_PUSH:?};\n"
+    )
+}
+
+/// The drawn surface, behind what it counts by.
+fn surface() -> String {
+    [&shader_constants(), SURFACE].join("\n")
 }
 
 fn present(ldr: bool) -> &'static str {
@@ -210,7 +256,7 @@ fn rays(counted: bool) -> String {
     [
         if counted { COUNTED } else { UNCOUNTED },
         VIEW,
-        SURFACE,
+        &surface(),
         LOOK,
         include_str!("cache/march.wgsl"),
         include_str!("passes/clear_start.wgsl"),
@@ -237,7 +283,7 @@ fn heat(ldr: bool) -> String {
 fn shade(deferred: bool, multisampled: bool, air: bool) -> String {
     let daylight = if air {
         let parts = [light::BASE, light::TRANSMITTANCE, light::HARMONICS, sun::WGSL, AIR_VIEW];
-        [&parts[..], &[include_str!("passes/daylight_air.wgsl")]].concat().join("\n")
+        [&parts[..], &[include_str!("passes/daylight_air.wgsl"), SKYLIGHT]].concat().join("\n")
     } else {
         include_str!("passes/daylight_plain.wgsl").to_owned()
     };
@@ -246,8 +292,38 @@ fn shade(deferred: bool, multisampled: bool, air: bool) -> String {
         if deferred { include_str!("passes/shade_deferred.wgsl") } else { include_str!("passes/shade_forward.wgsl") };
     let shade = include_str!("passes/shade.wgsl");
     let bindings = include_str!("passes/shade_bindings.wgsl");
-    let parts = [bindings, VIEW, SURFACE, SUN_SEEN, LOOK, SUNLIT, depth, &daylight, shade, entry];
+    let surface = surface();
+    let parts = [bindings, VIEW, &surface, SUN_SEEN, LOOK, SUNLIT, depth, &daylight, shade, entry];
     parts.join("\n").replace("@group(0)", "@group(2)")
+}
+
+/// Bevy's group 0 comes first: ours is 1.
+fn water(sky: WaterSky, multisampled: bool, waves: bool, ground: bool) -> String {
+    let depth = if multisampled { DEPTH_MULTISAMPLED } else { DEPTH_SINGLE };
+    let mut parts = vec![VIEW, depth, water_light::WGSL];
+    let grid = format!("const WAVE_GRID: f32 = {}.0;\n", horizon_field::waves::GRID);
+    parts.extend([grid.as_str(), include_str!("passes/water_bodies.wgsl")]);
+    parts.push(if waves { include_str!("passes/water_waves.wgsl") } else { include_str!("passes/water_still.wgsl") });
+    match sky {
+        WaterSky::Nothing => parts.push(include_str!("passes/water_sky_none.wgsl")),
+        WaterSky::Gradient => {
+            parts.extend([gradient::WGSL, GRADIENT_AIR, include_str!("passes/water_sky_gradient.wgsl")]);
+        }
+        WaterSky::Air => {
+            let tables = [light::SKY_VIEW, SKYLIGHT];
+            parts.extend([light::BASE, light::HARMONICS, sun::WGSL, AIR_VIEW, include_str!("air/aerial.wgsl")]);
+            parts.extend([&tables[..], &[include_str!("passes/water_sky.wgsl")]].concat());
+        }
+    }
+    if ground {
+        parts.extend([UNCOUNTED, SURFACE, SUN_SEEN, LOOK, SUNLIT, include_str!("cache/march.wgsl")]);
+        parts.push(include_str!("passes/water_ground.wgsl"));
+    } else {
+        parts.push(include_str!("passes/water_no_ground.wgsl"));
+    }
+    parts.extend([include_str!("passes/water_sun.wgsl"), include_str!("passes/water_mirror.wgsl")]);
+    parts.push(include_str!("passes/water.wgsl"));
+    parts.join("\n").replace("@group(0)", "@group(1)")
 }
 
 fn sky_common(ldr: bool, multisampled: bool) -> String {
@@ -271,8 +347,8 @@ fn air_model(model: SkyModel) -> String {
 /// shading languages. `kernel` is a terrain's, from [`CompiledMaterial::kernel`](horizon_field::material::CompiledMaterial::kernel).
 pub fn shader_sources(kernel: &str) -> Vec<(&'static str, String)> {
     let alone = |source: &Source| {
-        use Source::{Air, Gradient, Heat, Shade};
-        !matches!(source, Shade { .. } | Heat { ldr: true } | Gradient { ldr: true, .. } | Air { ldr: true, .. })
+        use Source::{Air, Gradient, Heat, Shade, Water};
+        !matches!(source, Shade { .. } | Water { .. } | Heat { ldr: true } | Gradient { ldr: true, .. } | Air { ldr: true, .. })
     };
     let own = Source::all().into_iter().filter(alone).map(|source| (source.name(), source.text()));
     [("fill", fill_source(kernel))].into_iter().chain(own).collect()

@@ -11,6 +11,7 @@ mod stamp;
 mod sun;
 mod sunlight;
 mod terrain;
+mod water;
 
 pub use air_light::{AtmosphereRejected, CompiledAtmosphere};
 pub(crate) use air_light::{brighten, compile_atmospheres, forget_atmosphere};
@@ -36,3 +37,5 @@ pub use sun::Sun;
 pub(crate) use sunlight::turn_suns;
 pub use sunlight::{Sunlight, TimeOfDay, towards_sun};
 pub use terrain::{HeightImages, Terrain};
+pub use water::{CompiledWater, Water, WaterDisc, WaterError, WaterOutline, WaterPlace, WaterRectangle, WaterRejected};
+pub(crate) use water::{compile_waters, forget_water};

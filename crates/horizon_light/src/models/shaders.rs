@@ -39,7 +39,7 @@ pub const ISOTROPIC_COMPUTE: &str = include_str!("isotropic_compute.wgsl");
 /// How the sky view is made, with any model; goes with [`SKY_VIEW`].
 pub const SKY_VIEW_COMPUTE: &str = include_str!("sky_view_compute.wgsl");
 
-/// Drawing from the sky view, after [`SKY_VIEW_COMPUTE`]. Reads the sky view.
+/// Drawing from the sky view, after [`BASE`]. Reads the sky view.
 pub const SKY_VIEW: &str = include_str!("sky_view.wgsl");
 
 /// Single scattering over flat ground, after [`BASE`] and [`SCATTER`].

@@ -1,6 +1,10 @@
 // The sky all round a camera inside the air as a table; the twin of sky_view.rs, where the reasons stand. The host declares
 // fn sky_view_texel(x: u32, y: u32, layer: u32) -> vec3<f32>, which sky_view_compute.wgsl fills: layer 0 with soft light, 1 with that of
-// aerosols, without its phase.
+// aerosols, without its phase. Its rows are those above the horizon, from it on, then those below, from it on.
+
+const SKY_VIEW_AZIMUTHS: u32 = 48u;
+const SKY_VIEW_ABOVE: u32 = 48u;
+const SKY_VIEW_BELOW: u32 = 24u;
 
 fn sky_view_layer(c: Cell, first_row: u32, layer: u32) -> vec3<f32> {
     let y = c.first.y + first_row;

@@ -1,9 +1,4 @@
-// How the sky view is made; the twin of sky_view.rs, where the reasons stand. Its rows are those above the horizon, from it on, then those
-// below, from it on.
-
-const SKY_VIEW_AZIMUTHS: u32 = 48u;
-const SKY_VIEW_ABOVE: u32 = 48u;
-const SKY_VIEW_BELOW: u32 = 24u;
+// How the sky view is made; the twin of sky_view.rs, where the reasons stand. Goes with sky_view.wgsl.
 
 // What the table holds at a texel: its two layers.
 fn sky_view_compute(air: Medium, h: f32, mu_s: f32, texel: vec2<u32>, count: u32) -> Scattered {

@@ -10,19 +10,19 @@ use bevy::render::renderer::{RenderContext, RenderDevice, RenderQueue};
 use bytemuck::{Pod, Zeroable};
 use horizon_field::Stamps;
 use horizon_field::field::Contents;
+use horizon_field::material::compile::CUTOFF;
 use horizon_field::stamp::PART_BYTES;
 
 use super::super::kernel::fields_of;
 use super::super::uniforms::{ClipmapUniform, MaterialUniform, SunUniform};
 use super::CachePipelines;
-use super::clipmap::{Clipmap, DrawnLevel, TILE, TILE_BOUNDS, Tile, Work, place_of};
+use super::clipmap::{Clipmap, DrawnLevel, TILE, TILE_BOUNDS, TILE_LOOKS, TILE_TEXELS, Tile, Work, place_of};
 use crate::world::TerrainFields;
 
 /// Bytes of a tile: height, looks and bounds.
-pub const TILE_BYTES: u64 = 4096 * 4 + LOOK_BYTES + TILE_BOUNDS * 4;
-/// Bytes of a tile's looks, the largest of the buffers: for each pair of texels two surfaces and two normals, and for each 2 × 2 of them
-/// two bytes of light.
-pub const LOOK_BYTES: u64 = 4096 * 6 + 1024 * 2;
+pub const TILE_BYTES: u64 = TILE_TEXELS * 4 + LOOK_BYTES + TILE_BOUNDS * 4;
+/// Bytes of a tile's looks, the largest of the buffers.
+pub const LOOK_BYTES: u64 = TILE_LOOKS * 4;
 
 /// What the passes read.
 pub struct CacheBuffers {
@@ -56,10 +56,9 @@ impl CacheBuffers {
                 mapped_at_creation: false,
             })
         };
-        let texels = (TILE * TILE) as u64;
         let [layers, numbers, images] = field_buffers(fields, device);
         Self {
-            heights: stored("horizon_heights", texels * 4),
+            heights: stored("horizon_heights", TILE_TEXELS * 4),
             bounds: stored("horizon_bounds", TILE_BOUNDS * 4),
             looks: stored("horizon_looks", LOOK_BYTES),
             clipmap: UniformBuffer::default(),
@@ -145,8 +144,7 @@ impl FrameJobs {
                 let texel = f64::from(tile.exponent).exp2();
                 let half = [0.5 * (TILE - 1) as f64 * texel; 2];
                 let stamp = (parts.len() / PART_BYTES) as u32;
-                // The cut-off is the shader's.
-                let [moving, holes] = stamps.at(&place).append_bytes(half, half, 0.75 * texel, &mut parts);
+                let [moving, holes] = stamps.at(&place).append_bytes(half, half, CUTOFF * texel, &mut parts);
                 fills.push(FillJob {
                     tile: clipmap.stored(*tile),
                     anchor: i as u32 * stride,

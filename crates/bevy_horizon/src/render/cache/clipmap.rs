@@ -7,16 +7,15 @@
 use std::collections::HashSet;
 
 use horizon_field::Place;
+use horizon_field::material::compile::CUTOFF;
 use horizon_field::stamp::Area;
 
 use self::tiles::texel_of;
-pub use self::tiles::{TILE, Tile, TileRect, place_of};
+pub use self::tiles::{BOUNDS_HEAD, LIGHTS_AT, TILE, TILE_BOUNDS, TILE_LOOKS, TILE_TEXELS, Tile, TileRect, place_of};
 
 mod tiles;
 
-/// Words of a tile's pyramid: what its bounds are counted from and in, then 32² + 16² + 8² + 4² + 2² + 1 nodes.
-pub const TILE_BOUNDS: u64 = 2 + 1365;
-/// The most levels that a clipmap can have; the array in `surface.wgsl` is as long.
+/// The most levels that a clipmap can have.
 pub const MAX_LEVELS: usize = 20;
 /// log2 of the coarsest texel, in metres: a world cell.
 pub const COARSEST: i32 = 12;
@@ -98,7 +97,7 @@ fn stored_in_level(side: i64, index: [i64; 2]) -> usize {
 impl Level {
     /// Whether a grid of this level's texels shows what changed in an area: as the fill pass has it.
     fn shows(&self, area: &Area) -> bool {
-        area.narrow > 0.75 * f64::from(self.exponent).exp2()
+        area.narrow > CUTOFF * f64::from(self.exponent).exp2()
     }
 
     /// The tiles that hold ground of an area.

@@ -1,5 +1,5 @@
 // Fills tiles with the field: height, normal and material, once per texel. Follows the terrain's kernel, which declares
-// height(), material_at() and material_packed(), and stamp.wgsl.
+// height(), material_at() and material_packed(), and stamp.wgsl. Needs the constants of shaders.rs.
 
 struct Job {
     // The tile in the buffers, and its first anchor.
@@ -39,15 +39,15 @@ fn fill(@builtin(global_invocation_id) id: vec3<u32>, @builtin(workgroup_id) gro
     // By the group, so that a compiler sees that all of it reads the same layers and anchors.
     let job = jobs[group.z];
     let q = vec2<f32>(id.xy) * job.texel;
-    // An octave is whole down to waves of 1.5 texels, and gone at 0.75: texels lie still in the world, so that what little
-    // aliases does not crawl, and thin ridges keep their height for longer.
-    let cutoff = 0.75 * job.texel;
+    // An octave is whole down to waves of twice as many texels, and gone at the cut-off: texels lie still in the world, so that what
+    // little aliases does not crawl, and thin ridges keep their height for longer.
+    let cutoff = CUTOFF * job.texel;
     let ground = stamped(job.stamp, job.stamps, q, height(job.anchor, q, cutoff));
-    let index = job.tile * 4096u + id.y * 64u + id.x;
+    let index = job.tile * TILE_TEXELS + (id.y << TILE_BITS) + id.x;
     heights[index] = ground.x;
     let look = material_at(job.anchor, q, job.texel, cutoff, ground);
-    // Three words a pair of texels: two looks, then both normals. A tile's looks are 6656 words, see surface.wgsl.
-    let pair = job.tile * 6656u + 3u * ((index & 4095u) >> 1u);
+    // Three words a pair of texels: two looks, then both normals.
+    let pair = job.tile * TILE_LOOKS + 3u * ((index & (TILE_TEXELS - 1u)) >> 1u);
     // A hole is a roughness of 0, which no ground has.
     let word = material_packed(look, id.xy);
     looks[pair + (index & 1u)] = select(word, word & 0x07ffffffu, stamp_hole(job.stamp + job.stamps, job.holes, q));

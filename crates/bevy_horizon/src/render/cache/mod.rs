@@ -117,7 +117,7 @@ pub(crate) fn prepare_caches(
     for (entity, camera, view, extracted, has_clearance) in &views {
         let air = world.air(&camera.layers);
         let terrain = terrain_of(camera);
-        if terrain.is_none() && air.is_none() {
+        if terrain.is_none() && air.is_none() && !world.has_water(&camera.layers) {
             commands.entity(entity).remove::<(
                 ViewGround,
                 ViewBefore,
@@ -126,6 +126,7 @@ pub(crate) fn prepare_caches(
                 ViewGeometry,
                 ViewShade,
                 ViewClearance,
+                ViewWater,
             )>();
             continue;
         }

@@ -3,7 +3,7 @@
 // Notation. A *level* is a square of n × n texels around the clipmap's centre; a level's texel is twice the last's.
 // A *cell* (i, j) is a texel's index relative to the texel that holds the centre; the patch of that name spans
 // i..i+1, j..j+1. The *fraction* is where in its texel the centre lies. Storage is toroidal and in tiles of 64 × 64
-// texels. x and z are metres from the centre, y is metres above the datum.
+// texels. x and z are metres from the centre, y is metres above the datum. Needs the constants of shaders.rs.
 
 struct Level {
     // Metres per texel, and its inverse.
@@ -24,24 +24,13 @@ struct Level {
 
 struct Clipmap {
     // Finest first.
-    levels: array<Level, 20>,
+    levels: array<Level, MAX_LEVELS>,
     count: u32,
     // Tiles along a side.
     side: u32,
 }
 
 @group(0) @binding(0) var<uniform> clipmap: Clipmap;
-
-const TILE: u32 = 64u;
-const TILE_BITS: u32 = 6u;
-const TILE_TEXELS: u32 = 4096u;
-// 32² + 16² + 8² + 4² + 2² + 1
-// In words: what bounds are counted from and in, in metres, then two numbers of 16 bits a node.
-const TILE_BOUNDS: u32 = 1367u;
-const BOUNDS_HEAD: u32 = 2u;
-// In words: for each pair of texels two surfaces and their two normals; then how 32 × 32 points see the sun, 16 bits each.
-const TILE_LOOKS: u32 = 6656u;
-const LIGHTS_AT: u32 = 6144u;
 
 // A cell's index along each axis of a level's storage: brought into 0 .. n, from at most n outside.
 fn wrapped(l: Level, cell: vec2<i32>) -> vec2<u32> {
@@ -84,7 +73,7 @@ fn stored_corners(l: Level, cell: vec2<i32>) -> vec4<f32> {
 // The lowest and highest point of the 2^mip × 2^mip patches around a cell; mip 1 to 6.
 fn stored_bounds(l: Level, cell: vec2<i32>, mip: u32) -> vec2<f32> {
     let at = wrapped(l, cell);
-    let offset = (4096u - (4096u >> (2u * (mip - 1u)))) / 3u;
+    let offset = (TILE_TEXELS - (TILE_TEXELS >> (2u * (mip - 1u)))) / 3u;
     let node = (at & vec2<u32>(TILE - 1u)) >> vec2<u32>(mip);
     let tile = tile_of(l, at) * TILE_BOUNDS;
     let word = bounds[tile + BOUNDS_HEAD + offset + (node.y << (TILE_BITS - mip)) + node.x];

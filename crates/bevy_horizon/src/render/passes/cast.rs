@@ -10,20 +10,22 @@ use bevy::prelude::*;
 use bevy::render::diagnostic::RecordDiagnostics;
 use bevy::render::render_resource::binding_types::{storage_buffer_read_only_sized, uniform_buffer};
 use bevy::render::render_resource::{
-    BindGroup, BindGroupEntries, BindGroupLayoutDescriptor, BindGroupLayoutEntries, Buffer, BufferInitDescriptor,
-    BufferUsages, CachedRenderPipelineId, CompareFunction, DepthStencilState, DynamicUniformBuffer, FragmentState,
-    IndexFormat, PipelineCache, PrimitiveState, RenderPassDescriptor, RenderPipelineDescriptor, ShaderStages,
-    ShaderType, StoreOp, VertexState,
+    BindGroup, BindGroupEntries, BindGroupLayoutDescriptor, BindGroupLayoutEntries, Buffer, BufferId,
+    BufferInitDescriptor, BufferUsages, CachedRenderPipelineId, CompareFunction, DepthStencilState,
+    DynamicUniformBuffer, FragmentState, IndexFormat, PipelineCache, PrimitiveState, RawBufferVec,
+    RenderPassDescriptor, RenderPipelineDescriptor, ShaderStages, ShaderType, StoreOp, VertexState,
 };
 use bevy::render::renderer::{RenderContext, RenderDevice, RenderQueue, ViewQuery};
 use bevy::render::view::ExtractedView;
 
-use self::patches::{LightView, QUADS, patches};
+use self::patches::{LightView, Patch, patches};
 use super::super::cache::Caches;
 use super::super::extract::ExtractedWorld;
 use super::super::shaders::Source;
 use super::super::uniforms::ClipmapUniform;
 use super::super::view::ViewGround;
+
+pub use self::patches::{PUSH, QUADS};
 
 mod patches;
 
@@ -45,6 +47,12 @@ pub struct GroundCast {
     holes: bool,
 }
 
+/// What a cache's ground is drawn with, and the buffers that it was made of: it holds as long as they do.
+struct Bound {
+    made_of: [BufferId; 5],
+    group: BindGroup,
+}
+
 /// The pipelines of ground without holes and with, and what they bind; none before a light asks.
 #[derive(Resource)]
 pub struct CastPipeline {
@@ -52,10 +60,10 @@ pub struct CastPipeline {
     ids: [Option<CachedRenderPipelineId>; 2],
     indices: Option<Buffer>,
     lights: DynamicUniformBuffer<LightUniform>,
-    /// The patches of all maps of this frame.
-    patches: Option<Buffer>,
+    /// The patches of all maps.
+    patches: RawBufferVec<Patch>,
     /// By cache.
-    groups: Vec<Option<BindGroup>>,
+    groups: Vec<Bound>,
 }
 
 impl Default for CastPipeline {
@@ -76,10 +84,16 @@ impl Default for CastPipeline {
             ids: [None; 2],
             indices: None,
             lights: DynamicUniformBuffer::default(),
-            patches: None,
+            patches: no_patches(),
             groups: Vec::new(),
         }
     }
+}
+
+fn no_patches() -> RawBufferVec<Patch> {
+    let mut patches = RawBufferVec::new(BufferUsages::STORAGE);
+    patches.set_label(Some("horizon_cast_patches"));
+    patches
 }
 
 impl CastPipeline {
@@ -150,8 +164,6 @@ pub fn prepare_casts(
 ) {
     let pipeline = &mut *pipeline;
     pipeline.lights.clear();
-    pipeline.patches = None;
-    pipeline.groups.clear();
     let mut all = Vec::new();
     let mut grounds = Vec::new();
     let mut owned = EntityHashMap::default();
@@ -203,31 +215,48 @@ pub fn prepare_casts(
         }
     }
     if all.is_empty() {
+        pipeline.patches = no_patches();
+        pipeline.groups.clear();
         return;
     }
     pipeline.queue(&pipelines, &device, false);
     if caches.0.iter().any(|cache| cache.holes()) {
         pipeline.queue(&pipelines, &device, true);
     }
-    pipeline.lights.write_buffer(&device, &queue);
-    pipeline.patches = Some(device.create_buffer_with_data(&BufferInitDescriptor {
-        label: Some("horizon_cast_patches"),
-        contents: bytemuck::cast_slice(&all),
-        usage: BufferUsages::STORAGE,
-    }));
-    let layout = pipelines.get_bind_group_layout(&pipeline.layout);
-    for cache in &caches.0 {
+    let CastPipeline { layout, lights, patches, groups, .. } = pipeline;
+    lights.write_buffer(&device, &queue);
+    // Where camera and lights stand still, they are the same.
+    if patches.values() != &all {
+        *patches.values_mut() = all;
+        patches.write_buffer(&device, &queue);
+    }
+    let (Some(patches), Some(of_lights), Some(light)) = (patches.buffer(), lights.buffer(), lights.binding()) else {
+        return;
+    };
+    groups.truncate(caches.0.len());
+    for (i, cache) in caches.0.iter().enumerate() {
         let buffers = &cache.buffers;
-        let bound = (buffers.clipmap.binding(), pipeline.lights.binding(), &pipeline.patches);
-        let (Some(clipmap), Some(lights), Some(patches)) = bound else { return };
+        let Some(clipmap) = buffers.clipmap.buffer() else {
+            groups.truncate(i);
+            return;
+        };
+        let made_of = [clipmap, &buffers.heights, &buffers.looks, patches, of_lights].map(Buffer::id);
+        if groups.get(i).is_some_and(|bound| bound.made_of == made_of) {
+            continue;
+        }
         let entries = BindGroupEntries::with_indices((
-            (0, clipmap),
+            (0, clipmap.as_entire_binding()),
             (1, buffers.heights.as_entire_binding()),
             (3, buffers.looks.as_entire_binding()),
             (4, patches.as_entire_binding()),
-            (5, lights),
+            (5, light.clone()),
         ));
-        pipeline.groups.push(Some(device.create_bind_group("horizon_cast", &layout, &entries)));
+        let layout = pipelines.get_bind_group_layout(layout);
+        let bound = Bound { made_of, group: device.create_bind_group("horizon_cast", &layout, &entries) };
+        match groups.get_mut(i) {
+            Some(last) => *last = bound,
+            None => groups.push(bound),
+        }
     }
 }
 
@@ -264,7 +293,7 @@ fn draw(
     pipelines: &PipelineCache,
     ctx: &mut RenderContext,
 ) {
-    let group = pipeline.groups.get(cast.cache).and_then(Option::as_ref);
+    let group = pipeline.groups.get(cast.cache).map(|bound| &bound.group);
     let made = |holes: bool| pipeline.ids[usize::from(holes)].and_then(|id| pipelines.get_render_pipeline(id));
     // While that for holes compiles, the ground is whole.
     let made = made(cast.holes).or_else(|| made(false));

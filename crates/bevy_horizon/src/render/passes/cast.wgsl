@@ -1,4 +1,4 @@
-// The ground in a shadow map: patches of 16 × 16 quads at the cached heights, depth alone. Quads are some texels of the map wide, so that silhouettes lie where they should; what lies within a quad does not, and so every vertex is
+// The ground in a shadow map: patches of quads at the cached heights, depth alone. Quads are some texels of the map wide, so that silhouettes lie where they should; what lies within a quad does not, and so every vertex is
 // pushed away from the light by more than that, along the light, which moves no silhouette. Needs surface.wgsl.
 
 @group(0) @binding(1) var<storage, read> heights: array<f32>;
@@ -23,13 +23,10 @@ struct Patch {
 @group(0) @binding(4) var<storage, read> patches: array<Patch>;
 @group(0) @binding(5) var<uniform> light: Light;
 
-// Quads that a vertex is pushed.
-const PUSH: f32 = 2.0;
-
 // The texel at a vertex of a patch.
 fn vertex_cell(one: Patch, vertex: u32) -> vec2<i32> {
     let l = clipmap.levels[one.level];
-    let corner = one.cell + vec2<i32>(vec2<u32>(vertex % 17u, vertex / 17u)) * one.quad;
+    let corner = one.cell + vec2<i32>(vec2<u32>(vertex % CAST_VERTICES, vertex / CAST_VERTICES)) * one.quad;
     return clamp(corner, l.low, l.high - vec2<i32>(1));
 }
 
@@ -39,7 +36,7 @@ fn in_map(one: Patch, cell: vec2<i32>) -> vec4<f32> {
     let at = (vec2<f32>(cell) - l.fraction) * l.texel;
     let p = vec3<f32>(at.x, stored_height(l, cell), at.y);
     let to_light = normalize(light.place.xyz - p * light.place.w);
-    var clip = light.clip_from_ground * vec4<f32>(p - to_light * (PUSH * f32(one.quad) * l.texel), 1.0);
+    var clip = light.clip_from_ground * vec4<f32>(p - to_light * (CAST_PUSH * f32(one.quad) * l.texel), 1.0);
     if (light.place.w == 0.0) {
         // What stands between the light and a cascade casts into it from its near plane.
         clip.z = min(clip.z, clip.w);

@@ -8,6 +8,7 @@ mod geometry;
 mod pipelines;
 mod shade;
 mod target;
+mod water;
 
 use bevy::app::SubApp;
 use bevy::core_pipeline::Core3d;
@@ -30,12 +31,13 @@ use bevy::render::renderer::RenderDevice;
 use bevy::render::texture::{FallbackImage, GpuImage};
 use bevy::render::view::{ExtractedView, ViewDepthTexture, ViewUniforms};
 
-pub use self::cast::{CastPipeline, prepare_casts};
+pub use self::cast::{CastPipeline, PUSH as CAST_PUSH, QUADS as CAST_QUADS, prepare_casts};
 pub use self::clearance::{ClearancePipeline, Table, ViewClearance};
 pub use self::geometry::{GeometryPipelines, ViewGeometry, bind_geometry, prepare_geometry};
 pub use self::pipelines::PassPipelines;
 use self::pipelines::{Pass, PassKey, Variant};
 pub use self::shade::{ShadePipelines, ViewShade, bind_shade, prepare_shade};
+pub use self::water::{ViewWater, WaterPipelines, bind_waters, copy_depth, prepare_waters};
 use super::air::{AirTables, ViewAir};
 use super::cache::Caches;
 use super::extract::ExtractedHorizonCamera;
@@ -80,6 +82,12 @@ pub fn add_ground(render_app: &mut SubApp) {
             (shade::draw_shade.before(screen_space_reflections), draw::draw_heat.after(screen_space_reflections))
                 .chain()
                 .before(main_opaque_pass_3d)
+                .in_set(Core3dSystems::MainPass),
+            water::draw_water
+                .after(main_opaque_pass_3d)
+                .before(draw::draw_sky)
+                .before(main_transmissive_pass_3d)
+                .before(main_transparent_pass_3d)
                 .in_set(Core3dSystems::MainPass),
         ),
     );

@@ -1,16 +1,6 @@
 // The simplest air: a gradient where nothing was drawn, and exponential haze over everything that was, ground and meshes alike, by
-// the depth that they left. Needs sky_common.wgsl and horizon_light's gradient.wgsl.
-
-struct GradientAir {
-    sky: GradientSky,
-    // Extinction at the datum, per metre.
-    haze: f32,
-    // Metres over which the haze thins by e.
-    haze_height: f32,
-    // Cosine of the sun's angular radius; luminance of its disc, in cd/m².
-    sun_cosine: f32,
-    sun_luminance: f32,
-}
+// the depth that they left. Needs sky_common.wgsl, gradient_air.wgsl and horizon_light's
+// gradient.wgsl.
 
 @group(0) @binding(1) var<uniform> gradient: GradientAir;
 

@@ -1,5 +1,4 @@
-// How much of the sun's disc a point on or above the ground sees. Needs surface.wgsl, sun_seen.wgsl, look.wgsl (for the
-// buffer) and level_at() of levels.wgsl.
+// How much of the sun's disc a point on or above the ground sees. Needs surface.wgsl, sun_seen.wgsl, and look.wgsl (for the buffer).
 
 fn light_word(l: Level, cell: vec2<i32>) -> u32 {
     let at = wrapped(l, cell);

@@ -86,9 +86,9 @@ fn twins_share_their_constants() {
     has(ISOTROPIC_COMPUTE, format!("const ISOTROPIC_SIZE: vec2<u32> = vec2({}u);", isotropic::SIZE));
     has(ISOTROPIC, format!("vec2(0.5 * mu_s + 0.5, h / air.height), vec2({}u)", isotropic::SIZE));
     has(ISOTROPIC_COMPUTE, format!("const ISOTROPIC_STEPS: u32 = {}u;", isotropic::STEPS));
-    has(SKY_VIEW_COMPUTE, format!("const SKY_VIEW_AZIMUTHS: u32 = {}u;", sky_view::AZIMUTHS));
-    has(SKY_VIEW_COMPUTE, format!("const SKY_VIEW_ABOVE: u32 = {}u;", sky_view::ABOVE));
-    has(SKY_VIEW_COMPUTE, format!("const SKY_VIEW_BELOW: u32 = {}u;", sky_view::BELOW));
+    has(SKY_VIEW, format!("const SKY_VIEW_AZIMUTHS: u32 = {}u;", sky_view::AZIMUTHS));
+    has(SKY_VIEW, format!("const SKY_VIEW_ABOVE: u32 = {}u;", sky_view::ABOVE));
+    has(SKY_VIEW, format!("const SKY_VIEW_BELOW: u32 = {}u;", sky_view::BELOW));
     let float = |x: f64| format!("{:?}", x as f32);
     for [node, weight] in directions::POLAR {
         has(SCATTER, format!("vec2({}, {})", float(node), float(weight)));

@@ -4,6 +4,16 @@ use horizon_field::{CELL, Place};
 
 /// Texels along a tile's side.
 pub const TILE: i64 = 64;
+/// Texels of a tile.
+pub const TILE_TEXELS: u64 = (TILE * TILE) as u64;
+/// Words of a tile's pyramid before its nodes: what its bounds are counted from and in, in metres.
+pub const BOUNDS_HEAD: u64 = 2;
+/// Words of a tile's pyramid: 32² + 16² + 8² + 4² + 2² + 1 nodes, each two numbers of 16 bits.
+pub const TILE_BOUNDS: u64 = BOUNDS_HEAD + (TILE_TEXELS - 1) / 3;
+/// Words of a tile's looks before its light: for each pair of texels two surfaces and their two normals.
+pub const LIGHTS_AT: u64 = TILE_TEXELS / 2 * 3;
+/// Words of a tile's looks: last come 16 bits of light for each 2 × 2 texels.
+pub const TILE_LOOKS: u64 = LIGHTS_AT + TILE_TEXELS / 8;
 
 /// A rectangle of tiles, `min` included, `max` not.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

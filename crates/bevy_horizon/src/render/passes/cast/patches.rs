@@ -13,11 +13,11 @@ pub const QUADS: u16 = 16;
 const WIDEST: i32 = 4;
 /// How wide a quad should be, in texels of the shadow map: silhouettes bend by a hundredth of that over a hill that is a hundred wide.
 const QUAD_IN_MAP: f32 = 16.0;
-/// Quads that a vertex is pushed away from the light; as in `cast.wgsl`.
-const PUSH: f32 = 2.0;
+/// Quads that a vertex is pushed away from the light.
+pub const PUSH: f32 = 2.0;
 
 /// `Patch` of `cast.wgsl`.
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Patch {
     level: u32,
