@@ -4,8 +4,6 @@
 //! u = P x / L, with P = p + i q a whole complex number: it is turned by the argument of P and fits |P| times into the tile. A tile
 //! on moves u by P, or by i P: cells that differ by multiples of P are the same cell.
 
-use core::f64::consts::TAU;
-
 use super::lattice::{held, sides, sub_seed};
 use super::transform::{roots, transform};
 use super::{CASCADES, Cascade, FbmWaves, GRID, PERIOD, Wave, towards};

@@ -11,8 +11,8 @@
 //! with x₀ + D(x₀) = x, and between texels it is bilinear. CPU and device do the same.
 //!
 //! Data flows through the files in this order: `models` (parameters) → `sines`, `fbm`, `spectrum` (waves of a model) → `sea`
-//! (checked) → `transform` (a tile at a time, by a fast Fourier transform) → `resolve` (over the plane) → `tiles` (heights,
-//! slopes, and their moments for filtering) → `surface` (answers). `exact` is the truth that tiles are held against.
+//! (checked) → `transform` (a tile at a time, by a fast Fourier transform) → `resolve` (over the plane) → `tiles` (heights and
+//! slopes) → `moments` (through a filter), `surface` (answers). `exact` is the truth that tiles are held against.
 //!
 //! All is computed from hashes, exact operations and `libm`, in an order that does not depend on the machine: values are equal bit
 //! for bit on every platform, for servers and saved games.
@@ -26,6 +26,7 @@ mod exact;
 mod fbm;
 mod lattice;
 mod models;
+mod moments;
 mod resolve;
 mod sea;
 mod sines;
@@ -40,9 +41,10 @@ mod tests;
 pub use cascade::{Cascade, Wave};
 pub use exact::Exact;
 pub use models::{FbmWaves, Gerstner, Sines, Spectrum};
+pub use moments::{Chain, Chains, Moments};
 pub use sea::Sea;
 pub use surface::SeaSurface;
-pub use tiles::{Moments, STEEPEST, Tile, Tiles, tick};
+pub use tiles::{STEEPEST, Tile, Tiles, tick};
 pub use transform::roots;
 
 use crate::FieldError;

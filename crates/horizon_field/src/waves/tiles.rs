@@ -1,56 +1,46 @@
-//! Tiles at a time: heights and slopes over the plane, and the moments that keep roughness where waves are too small to be seen.
+//! Tiles at a time: heights and slopes over the plane.
 //!
-//! Both kinds of data have the layout of the renderer's textures, and as these a chain of means, each of 2 × 2 texels of the one before.
-//! Slopes have second moments of their own: the variance E[s²] − E[s]² is right at every size (Olano and Baker, *LEAN Mapping*,
-//! 2010; Bruneton et al. 2010).
+//! The transform gives the water's own frame at once. What stands over a texel is found when it is first asked for, and kept: a
+//! game asks for few of the texels.
 
+use core::sync::atomic::{AtomicU64, Ordering};
+use std::sync::OnceLock;
+
+use super::moments::Chains;
 use super::transform::grid;
 use super::{Cascade, GRID, PERIOD, Sea, resolve};
 
 /// Slopes beyond this are cut, so that squares fit into half floats: 89.5° of steepness.
 pub const STEEPEST: f64 = 128.0;
+/// A texel that nobody has asked for. No height is such a number.
+const UNKNOWN: u64 = u64::MAX;
 
 /// The device's clock: the time in 2⁻³² of a [`PERIOD`], which no game is too old for. A time that is no number is 0.
 pub fn tick(time: f64) -> u32 {
     (time.rem_euclid(PERIOD) / PERIOD * 4_294_967_296.0) as u32
 }
 
-/// Texels of a tile and of its means: side after side, 128 to 1.
-type Chain = Vec<Vec<[f32; 4]>>;
-
-/// One tile.
-#[derive(Clone, Debug, PartialEq)]
+/// One tile at a time.
+#[derive(Debug)]
 pub struct Tile {
-    /// The side, in metres.
-    pub side: f64,
-    /// Height, slopes along x and z, foam.
-    pub surface: Chain,
-    /// Means of the slopes' squares, of their product, and of the height's square.
-    pub moments: Chain,
+    side: f64,
+    bound: f64,
+    /// Height and displacement in the water's own frame.
+    grid: Vec<[f64; 3]>,
+    /// Height and foam over the plane, as two f32, as far as they are known. Whoever finds them finds the same.
+    over: Vec<AtomicU64>,
+    chains: OnceLock<Chains>,
 }
 
 /// All tiles of a sea at a time.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Debug, Default)]
 pub struct Tiles {
     /// The tiles, from the largest on.
     pub tiles: Vec<Tile>,
 }
 
-/// The surface, as seen through a filter.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Moments {
-    /// The mean height, in metres.
-    pub height: f64,
-    /// The mean slopes along x and z.
-    pub slope: [f64; 2],
-    /// What the filter hides: the variances of the slopes along x and z, and their covariance.
-    pub variance: [f64; 3],
-    /// How far water is drawn together, from 0 to 1, in the tile where it is most.
-    pub foam: f64,
-}
-
 impl Sea {
-    /// All tiles at a time in seconds. Some milliseconds: [`SeaSurface`](super::SeaSurface) keeps them for many questions.
+    /// All tiles at a time in seconds. About a millisecond: [`SeaSurface`](super::SeaSurface) keeps them for many questions.
     pub fn tiles(&self, time: f64) -> Tiles {
         Tiles { tiles: self.cascades.iter().map(|cascade| Tile::new(cascade, tick(time))).collect() }
     }
@@ -58,105 +48,86 @@ impl Sea {
 
 impl Tile {
     fn new(cascade: &Cascade, tick: u32) -> Self {
-        let (grid, bound) = (grid(cascade, tick), f64::from(cascade.bound));
-        let resolved: Vec<[f64; 2]> =
-            (0..GRID * GRID).map(|i| resolve::over(&grid, cascade.texel(), bound, i % GRID, i / GRID)).collect();
-        let wrapped = |x: usize, z: usize| resolved[(z % GRID) * GRID + x % GRID][0];
-        let per = 1.0 / (12.0 * cascade.texel());
-        // Central differences of the fourth order.
-        let slope = |ends: [f64; 4]| {
-            let [before, last, next, after] = ends;
-            ((8.0 * (next - last) - (after - before)) * per).clamp(-STEEPEST, STEEPEST)
-        };
-        let (mut surface, mut moments) = (Vec::with_capacity(GRID * GRID), Vec::with_capacity(GRID * GRID));
-        for (z, x) in (0..GRID).flat_map(|z| (0..GRID).map(move |x| (z, x))) {
-            let off = [GRID - 2, GRID - 1, 1, 2];
-            let [sx, sz] = [slope(off.map(|off| wrapped(x + off, z))), slope(off.map(|off| wrapped(x, z + off)))];
-            let [height, foam] = resolved[z * GRID + x];
-            surface.push([height, sx, sz, foam].map(|value| value as f32));
-            moments.push([sx * sx, sz * sz, sx * sz, height * height].map(|value| value as f32));
+        Self {
+            side: cascade.side,
+            bound: f64::from(cascade.bound),
+            grid: grid(cascade, tick),
+            over: (0..GRID * GRID).map(|_| AtomicU64::new(UNKNOWN)).collect(),
+            chains: OnceLock::new(),
         }
-        Self { side: cascade.side, surface: chain(surface), moments: chain(moments) }
     }
 
-    /// Values between the texels of a mean, and of two of them.
-    fn read(&self, of: &Chain, place: [f64; 2], level: f64) -> [f64; 4] {
-        let level = level.clamp(0.0, (of.len() - 1) as f64);
-        let (first, share) = (level as usize, level - level.floor());
-        let one = bilinear(&of[first], place.map(|x| x / self.side));
-        if share == 0.0 {
-            return one;
+    /// The side, in metres.
+    pub fn side(&self) -> f64 {
+        self.side
+    }
+
+    /// What is read at many sizes.
+    pub fn chains(&self) -> &Chains {
+        self.chains.get_or_init(|| Chains::new(self))
+    }
+
+    /// Height and foam over a texel, counted on across the tile's edge.
+    fn over(&self, x: usize, z: usize) -> [f32; 2] {
+        let [x, z] = [x % GRID, z % GRID];
+        let slot = &self.over[z * GRID + x];
+        let bits = slot.load(Ordering::Relaxed);
+        if bits != UNKNOWN {
+            return [f32::from_bits((bits >> 32) as u32), f32::from_bits(bits as u32)];
         }
-        let other = bilinear(&of[first + 1], place.map(|x| x / self.side));
-        core::array::from_fn(|k| one[k] + share * (other[k] - one[k]))
+        let found = resolve::over(&self.grid, self.side / GRID as f64, self.bound, x, z).map(|value| value as f32);
+        let [height, foam] = found.map(|value| u64::from(value.to_bits()));
+        slot.store((height << 32) | foam, Ordering::Relaxed);
+        found
+    }
+
+    /// Height, slopes along x and z by central differences of the fourth order, and foam, over a texel.
+    pub(super) fn texel(&self, x: usize, z: usize) -> [f64; 4] {
+        let per = GRID as f64 / (12.0 * self.side);
+        let slope = |at: &dyn Fn(usize) -> [f32; 2]| {
+            let [before, last, next, after] = [GRID - 2, GRID - 1, 1, 2].map(|off| f64::from(at(off)[0]));
+            ((8.0 * (next - last) - (after - before)) * per).clamp(-STEEPEST, STEEPEST)
+        };
+        let [height, foam] = self.over(x, z).map(f64::from);
+        [height, slope(&|off| self.over(x + off, z)), slope(&|off| self.over(x, z + off)), foam]
     }
 }
 
 impl Tiles {
     /// The height over a place (x, z), in metres above the water's level.
     pub fn height(&self, place: [f64; 2]) -> f64 {
-        self.tiles.iter().map(|tile| tile.read(&tile.surface, place, 0.0)[0]).sum()
+        let height = |tile: &Tile| bilinear(GRID, place.map(|x| x / tile.side), |x, z| [f64::from(tile.over(x, z)[0])]);
+        self.tiles.iter().map(|tile| height(tile)[0]).sum()
+    }
+
+    /// The slopes along x and z over a place (x, z).
+    pub fn slope(&self, place: [f64; 2]) -> [f64; 2] {
+        self.tiles.iter().fold([0.0; 2], |sum, tile| {
+            let [_, x, z, _] = bilinear(GRID, place.map(|x| x / tile.side), |x, z| tile.texel(x, z));
+            [sum[0] + x, sum[1] + z]
+        })
     }
 
     /// The unit normal over a place (x, z).
     pub fn normal(&self, place: [f64; 2]) -> [f64; 3] {
-        let Moments { slope: [x, z], .. } = self.moments(place, 0.0);
+        let [x, z] = self.slope(place);
         let per = 1.0 / (1.0 + x * x + z * z).sqrt();
         [-x * per, per, -z * per]
     }
-
-    /// The mean of the surface over a square of side `footprint` about a place (x, z), both in metres, as a device's trilinear filter
-    /// has it. Waves of different tiles are taken as independent.
-    pub fn moments(&self, place: [f64; 2], footprint: f64) -> Moments {
-        let mut sum = Moments::default();
-        for tile in &self.tiles {
-            let level = libm::log2((footprint * GRID as f64 / tile.side).max(1.0));
-            let [height, sx, sz, foam] = tile.read(&tile.surface, place, level);
-            let [xx, zz, xz, _] = tile.read(&tile.moments, place, level);
-            sum.height += height;
-            sum.slope = [sum.slope[0] + sx, sum.slope[1] + sz];
-            sum.variance[0] += (xx - sx * sx).max(0.0);
-            sum.variance[1] += (zz - sz * sz).max(0.0);
-            sum.variance[2] += xz - sx * sz;
-            sum.foam = sum.foam.max(foam);
-        }
-        sum
-    }
 }
 
-/// Texels, and their means.
-fn chain(texels: Vec<[f32; 4]>) -> Chain {
-    let mut chain = vec![texels];
-    let mut side = GRID;
-    while side > 1 {
-        let last = &chain[chain.len() - 1];
-        let mean = |x: usize, z: usize| {
-            let at = 2 * z * side + 2 * x;
-            let four = [last[at], last[at + 1], last[at + side], last[at + side + 1]];
-            core::array::from_fn(|k| 0.25 * ((four[0][k] + four[1][k]) + (four[2][k] + four[3][k])))
-        };
-        let half = side / 2;
-        let next = (0..half * half).map(|i| mean(i % half, i / half)).collect();
-        chain.push(next);
-        side = half;
-    }
-    chain
-}
-
-/// Between the centres of texels, at a place in tiles. A place that is no number is the first texel.
-fn bilinear(texels: &[[f32; 4]], place: [f64; 2]) -> [f64; 4] {
-    let side = texels.len().isqrt();
-    let at = place.map(|x| (x - x.floor()) * side as f64 - 0.5);
+/// Between the centres of texels, at a place in tiles; the grid goes on across its edge. A place that is no number is 0.
+pub(super) fn bilinear<const N: usize>(
+    side: usize,
+    place: [f64; 2],
+    texel: impl Fn(usize, usize) -> [f64; N],
+) -> [f64; N] {
+    let at = place.map(|x| if x.is_finite() { (x - x.floor()) * side as f64 - 0.5 } else { -0.5 });
     let floor = at.map(f64::floor);
     let [x, z] = floor.map(|x| (x as i64).rem_euclid(side as i64) as usize);
     let [next_x, next_z] = [(x + 1) % side, (z + 1) % side];
     let [tx, tz] = [at[0] - floor[0], at[1] - floor[1]];
-    let row = |z: usize, k: usize| {
-        let [a, b] = [x, next_x].map(|x| f64::from(texels[z * side + x][k]));
-        a + tx * (b - a)
-    };
-    core::array::from_fn(|k| {
-        let (a, b) = (row(z, k), row(next_z, k));
-        a + tz * (b - a)
-    })
+    let mix = |a: [f64; N], b: [f64; N], t: f64| core::array::from_fn(|k| a[k] + t * (b[k] - a[k]));
+    let row = |z| mix(texel(x, z), texel(next_x, z), tx);
+    mix(row(z), row(next_z), tz)
 }
