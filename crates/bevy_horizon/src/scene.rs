@@ -13,13 +13,14 @@ use horizon_field::field::HeightImage;
 use horizon_field::field::check::MAX_DEPTH;
 use horizon_field::material::MaterialError;
 use horizon_field::stamp::{Placed, StampError};
+use horizon_field::trees::ForestError;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::HorizonSystems;
 use crate::world::{
-    Atmosphere, CompiledTerrain, ParamError, Stamp, StampPlace, Sun, Terrain, TerrainError, check_atmosphere,
-    check_params,
+    Atmosphere, CompiledTerrain, Felled, ParamError, Stamp, StampPlace, Sun, Terrain, TerrainError, Trees, TreesError,
+    check_atmosphere, check_params,
 };
 #[cfg(feature = "render")]
 use crate::world::{SkyModel, Sunlight, illuminance};
@@ -45,6 +46,12 @@ pub struct WorldFile {
     /// Local edits of the ground. Default: none.
     #[serde(default)]
     pub stamps: Vec<Placed>,
+    /// What grows on the ground. Default: nothing.
+    #[serde(default)]
+    pub trees: Option<Trees>,
+    /// Plants that stand no more, by their names. Default: none.
+    #[serde(default)]
+    pub felled: Felled,
     /// A good place to look from.
     #[serde(default)]
     pub view: Viewpoint,
@@ -158,6 +165,11 @@ impl WorldFile {
         if let Some(sun) = &self.sun {
             check_params("sun", sun)?;
         }
+        if let Some(trees) = &self.trees {
+            trees.check("trees")?;
+            trees.forest.density.check()?;
+            trees.forest.species_of.check()?;
+        }
         for (i, stamp) in self.stamps.iter().enumerate() {
             stamp.check(&format!("stamps[{i}]"))?;
         }
@@ -177,10 +189,15 @@ fn options() -> ron::Options {
 /// The line on which a refused parameter stands: the first one that has its name with its value.
 fn line_of(text: &str, error: &TerrainError) -> Option<usize> {
     let (path, value) = match error {
-        TerrainError::Param(ParamError { field, value, .. }) => (field.as_str(), Some(*value)),
+        TerrainError::Param(ParamError { field, value, .. })
+        | TerrainError::Trees(TreesError::Param(ParamError { field, value, .. })) => (field.as_str(), Some(*value)),
+        TerrainError::Trees(TreesError::Forest(
+            ForestError::Species { path, .. } | ForestError::Reach { path, .. },
+        )) => (path.as_str(), None),
         TerrainError::Material(MaterialError::TooManyLayers { .. }) => ("layers", None),
         TerrainError::Field(error)
         | TerrainError::Stamp(StampError::Param(error))
+        | TerrainError::Trees(TreesError::Forest(ForestError::Param(error) | ForestError::Field { error, .. }))
         | TerrainError::Material(MaterialError::Value(error) | MaterialError::Mask { source: error, .. }) => {
             match error {
                 FieldError::OutOfRange { path, value, .. } | FieldError::NotFinite { path, value } => {
@@ -230,7 +247,9 @@ impl AssetLoader for WorldLoader {
         let mut world = WorldFile::from_ron(&text)?;
         if let Some(terrain) = &mut world.terrain {
             let mut images = BTreeMap::new();
-            for path in terrain.field.image_paths().into_iter().chain(terrain.material.image_paths()) {
+            let forest = world.trees.iter().flat_map(|trees| [&trees.forest.density, &trees.forest.species_of]);
+            let grown = forest.flat_map(|field| field.image_paths());
+            for path in terrain.field.image_paths().into_iter().chain(terrain.material.image_paths()).chain(grown) {
                 if images.contains_key(&path) {
                     continue;
                 }
@@ -251,7 +270,7 @@ impl AssetLoader for WorldLoader {
     }
 }
 
-/// Put it on an entity, and the file's terrain and air appear on it, its sun and its stamps as children. When the file changes, they do.
+/// Put it on an entity, and the file's terrain, plants and air appear on it, its sun and its stamps as children. When the file changes, they do.
 /// A file with a sun also sets Bevy's `GlobalAmbientLight`: to the sky's light, or without air that makes it, to the sun's `ambient`.
 #[derive(Component, Clone, Debug, Default, Reflect)]
 #[reflect(Component, Default, Clone)]
@@ -332,6 +351,10 @@ fn apply_worlds(
             Some(terrain) if current == Some(terrain) => &mut entity,
             Some(terrain) => entity.insert(terrain.clone()),
             None => entity.remove::<Terrain>(),
+        };
+        match &file.trees {
+            Some(trees) => entity.insert((trees.clone(), file.felled.clone())),
+            None => entity.remove::<(Trees, Felled)>(),
         };
         match &file.atmosphere {
             Some(atmosphere) => entity.insert(atmosphere.clone()),

@@ -8,7 +8,7 @@ use horizon_field::stamp::StampError;
 use horizon_field::{Compiled, FieldError};
 use thiserror::Error;
 
-use super::{CompiledStamps, ParamError, Terrain};
+use super::{CompiledStamps, ParamError, Terrain, TreesError};
 
 /// What [`Terrain`] became: the compiled height field and the compiled material. Shared with queries and renderer.
 /// After a bad edit the last good one stays.
@@ -60,6 +60,9 @@ pub enum TerrainError {
     /// A stamp makes no sense.
     #[error(transparent)]
     Stamp(#[from] StampError),
+    /// Plants make no sense.
+    #[error(transparent)]
+    Trees(#[from] TreesError),
 }
 
 /// A terrain was rejected; what was there before stays.

@@ -26,6 +26,9 @@ use super::super::uniforms::ClipmapUniform;
 use super::super::view::ViewGround;
 
 mod patches;
+mod trees;
+
+pub use self::trees::{TreeCastPipeline, draw_trees_in_cascades, draw_trees_in_shared, prepare_tree_casts};
 
 /// `Light` of `cast.wgsl`.
 #[derive(Clone, Copy, Debug, ShaderType)]

@@ -2,9 +2,6 @@
 // the sun, which shines around and through leaves. Needs shade.wgsl, pixel_ray.wgsl, canopy_light.wgsl, and declarations of
 // depth_at() and depth_samples().
 
-@group(0) @binding(9) var plant_foliage: texture_3d<f32>;
-@group(0) @binding(10) var plant_foliage_sampler: sampler;
-
 const PI: f32 = 3.14159265;
 // Of a pixel's normal, how much is the crown's as a whole: leaves are too small to be lit one by one.
 const SMOOTH: f32 = 0.4;

@@ -140,6 +140,11 @@ impl Window {
         Some(index)
     }
 
+    /// Whether any tile is stored.
+    pub fn any(&self) -> bool {
+        self.slots.iter().any(|slot| slot.version > 0)
+    }
+
     /// Tiles that are up to date, and all.
     pub fn progress(&self) -> (usize, usize) {
         let done = self.slots.iter().filter(|slot| slot.version == self.version).count();
