@@ -17,6 +17,8 @@
 const PLANT_STANDS: u32 = 1u;
 const PLANT_ELLIPSOIDS: u32 = 4u;
 const PLANT_STEPS: u32 = 96u;
+// How near to a crown's skin a ray meets it, in pixels.
+const PLANT_NEAR: f32 = 0.25;
 // Texels along the foliage table's edge, and its coarsest mip.
 const PLANT_TEXELS: f32 = 64.0;
 const PLANT_COARSEST: f32 = 6.0;
@@ -196,6 +198,12 @@ fn plant_chord(ellipsoid: PlantEllipsoid, origin: vec3<f32>, direction: vec3<f32
     return vec2<f32>(middle - half, middle + half);
 }
 
+// How far along a ray the plant's middle lies.
+fn plant_along(solid: PlantSolid, origin: vec3<f32>, direction: vec3<f32>) -> f32 {
+    let half = 0.5 * solid.height;
+    return dot(solid.foot + half * vec3<f32>(solid.shear.x, 1.0, solid.shear.y) - origin, direction);
+}
+
 // Which mip of the foliage a pixel of this many metres shows.
 fn plant_level(species: u32, footprint: f32) -> f32 {
     let texel = plant_forest.species[species].period / PLANT_TEXELS;
@@ -296,7 +304,7 @@ fn plant_cast(solid: PlantSolid, origin: vec3<f32>, direction: vec3<f32>, range:
         return hit;
     }
     let level = plant_level(solid.species, footprint);
-    let near = 0.5 * footprint;
+    let near = PLANT_NEAR * footprint;
     let pace = 1.0 / (plant_slope(solid, level) * length(d));
     var t = enter;
     for (var step = 0u; step < PLANT_STEPS; step++) {
@@ -314,9 +322,10 @@ fn plant_cast(solid: PlantSolid, origin: vec3<f32>, direction: vec3<f32>, range:
 }
 
 // The nearest hit among the four plants that can reach into a dual cell: the square, half a cell off, around the corner that the
-// cells `dual` and `dual + 1` share. The frame is that of the cell (0, 0)'s corner.
+// cells `dual` and `dual + 1` share. The frame is that of the cell (0, 0)'s corner. `cone` is a pixel's width at the ray's
+// origin, and how much it grows for each metre; it is taken once for each plant, so that dual cells agree on it.
 fn plant_dual_cast(
-    dual: vec2<i32>, origin: vec3<f32>, direction: vec3<f32>, range: vec2<f32>, footprint: f32) -> PlantHit {
+    dual: vec2<i32>, origin: vec3<f32>, direction: vec3<f32>, range: vec2<f32>, cone: vec2<f32>) -> PlantHit {
     var hit = PlantHit(range.y, PLANT_NOTHING, dual);
     for (var i = 0; i < 4; i++) {
         let cell = dual + vec2<i32>(i & 1, i >> 1u);
@@ -325,6 +334,7 @@ fn plant_dual_cast(
             continue;
         }
         let solid = plant_solid(plant, plant_forest.spacing * vec2<f32>(cell));
+        let footprint = max(cone.x + cone.y * plant_along(solid, origin, direction), 1e-6);
         let found = plant_cast(solid, origin, direction, vec2<f32>(range.x, hit.t), footprint);
         if found.part != PLANT_NOTHING {
             hit = PlantHit(found.t, found.part, cell);
