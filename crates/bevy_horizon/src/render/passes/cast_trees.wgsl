@@ -35,7 +35,10 @@ fn cast_plant(@builtin(vertex_index) vertex: u32, @builtin(instance_index) insta
     // Four of the crown, and the trunk.
     let part = vertex / 6u;
     let trunk = part == PLANT_ELLIPSOIDS;
-    let there = select(part < plant_forest.species[solid.species].ellipsoids, plant_forest.species[solid.species].trunk.y > 0.0, trunk);
+    var there = part < plant_forest.species[solid.species].ellipsoids;
+    if (trunk) {
+        there = plant_forest.species[solid.species].trunk.y > 0.0;
+    }
     if (!plant_stands(plant) || !there) {
         return Blot(vec4<f32>(2.0, 2.0, 0.5, 1.0), vec2<f32>(0.0), 0.0, 0.0, 0u);
     }

@@ -50,7 +50,8 @@ fn cast_grove(origin: vec3<f32>, direction: vec3<f32>, t_near: f32, t_far: f32) 
         // From where the ray enters, so that no far distance is subtracted from another.
         let length = min(walk.t_exit, walk.end) - walk.t;
         let from_here = origin + direction * walk.t;
-        let hit = plant_dual_cast(walk.cell, from_here, direction, vec2<f32>(0.0, length), pixel_width(walk.t));
+        let cone = vec2<f32>(pixel_width(walk.t), select(view.pixel, 0.0, view.orthographic != 0u));
+        let hit = plant_dual_cast(walk.cell, from_here, direction, vec2<f32>(0.0, length), cone);
         if (hit.part != PLANT_NOTHING) {
             return PlantHit(walk.t + hit.t, hit.part, hit.cell);
         }
