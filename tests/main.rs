@@ -24,4 +24,5 @@ mod shadows;
 mod sky;
 mod stability;
 mod stamps;
+mod trees;
 mod worlds;

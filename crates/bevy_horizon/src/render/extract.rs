@@ -21,8 +21,8 @@ use super::trees::ViewGrove;
 use super::view::{ViewBefore, ViewGround};
 use crate::camera::HorizonCamera;
 use crate::world::{
-    Atmosphere, CompiledAtmosphere, CompiledStamps, CompiledTerrain, CompiledTrees, Sunlight, TerrainFields, Trees, Woods,
-    WorldOrigin,
+    Atmosphere, CompiledAtmosphere, CompiledStamps, CompiledTerrain, CompiledTrees, Sunlight, TerrainFields, Trees,
+    Woods, WorldOrigin,
 };
 
 /// The worlds, as they stand in this frame.

@@ -86,7 +86,8 @@ const EITHER: [bool; 2] = [false, true];
 impl Source {
     /// All of them.
     fn all() -> Vec<Self> {
-        let mut all = vec![Self::Pyramid, Self::Light, Self::Clearance, Self::Transmittance, Self::Isotropic, Self::CastTrees];
+        let mut all =
+            vec![Self::Pyramid, Self::Light, Self::Clearance, Self::Transmittance, Self::Isotropic, Self::CastTrees];
         all.extend(EITHER.map(|holes| Self::Cast { holes }));
         all.extend(EITHER.map(|first| Self::Moments { first }));
         all.extend(MODELS.map(|model| Self::ViewTables { model }));
@@ -312,7 +313,10 @@ fn air_model(model: SkyModel) -> String {
 pub fn shader_sources(kernel: &str) -> Vec<(&'static str, String)> {
     let alone = |source: &Source| {
         use Source::{Air, Gradient, Heat, Shade, Trees};
-        !matches!(source, Shade { .. } | Trees { .. } | Heat { ldr: true } | Gradient { ldr: true, .. } | Air { ldr: true, .. })
+        !matches!(
+            source,
+            Shade { .. } | Trees { .. } | Heat { ldr: true } | Gradient { ldr: true, .. } | Air { ldr: true, .. }
+        )
     };
     let own = Source::all().into_iter().filter(alone).map(|source| (source.name(), source.text()));
     [("fill", fill_source(kernel))].into_iter().chain(own).collect()

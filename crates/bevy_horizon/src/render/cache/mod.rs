@@ -128,7 +128,7 @@ pub(crate) fn prepare_caches(
                 ViewShade,
                 ViewClearance,
                 ViewGrove,
-        ViewTrees,
+                ViewTrees,
             )>();
             continue;
         }

@@ -15,9 +15,9 @@ use bevy::render::render_resource::binding_types::{
 };
 use bevy::render::render_resource::{
     BindGroup, BindGroupLayoutDescriptor, CachedRenderPipelineId, CompareFunction, DepthStencilState,
-    DynamicBindGroupEntries, DynamicBindGroupLayoutEntries, Extent3d, PipelineCache, RenderPassDescriptor, SamplerBindingType,
-    ShaderStages, SpecializedRenderPipeline, StoreOp, TextureDescriptor, TextureDimension, TextureSampleType,
-    TextureUsages,
+    DynamicBindGroupEntries, DynamicBindGroupLayoutEntries, Extent3d, PipelineCache, RenderPassDescriptor,
+    SamplerBindingType, ShaderStages, SpecializedRenderPipeline, StoreOp, TextureDescriptor, TextureDimension,
+    TextureSampleType, TextureUsages,
 };
 use bevy::render::renderer::{RenderContext, RenderDevice, RenderQueue, ViewQuery};
 use bevy::render::texture::{CachedTexture, TextureCache};

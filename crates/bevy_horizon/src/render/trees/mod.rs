@@ -10,9 +10,7 @@ use std::sync::Arc;
 use bevy::math::Vec3Swizzles;
 use bevy::prelude::*;
 use bevy::render::camera::ExtractedCamera;
-use bevy::render::render_resource::{
-    Buffer, BufferDescriptor, BufferInitDescriptor, BufferUsages, ShaderType, encase,
-};
+use bevy::render::render_resource::{Buffer, BufferDescriptor, BufferInitDescriptor, BufferUsages, ShaderType, encase};
 use bevy::render::renderer::{RenderDevice, RenderQueue};
 use bevy::render::view::ExtractedView;
 use bevy::tasks::{AsyncComputeTaskPool, Task, block_on, poll_once};
@@ -185,9 +183,7 @@ fn side_of(woods: &Woods, view: &ExtractedView, extracted: &ExtractedCamera, far
 /// A grove of this terrain and size: one that is used by a camera nearby, or else one that is free.
 fn find(groves: &[Grove], terrain: Entity, woods: &Woods, side: u32, cell: [i64; 2]) -> Option<usize> {
     let fits = |grove: &Grove| {
-        grove.terrain == terrain
-            && grove.window.side() == i64::from(side)
-            && grove.woods.spacing() == woods.spacing()
+        grove.terrain == terrain && grove.window.side() == i64::from(side) && grove.woods.spacing() == woods.spacing()
     };
     let near = |grove: &Grove| {
         let most = (Window::reach(side) / 4) as u64;

@@ -39,9 +39,7 @@ impl Extents {
 fn extent_of(species: &Species) -> [f32; 2] {
     let trunk = species.trunk_row();
     let rows = species.shape.crown().iter().chain(&trunk);
-    rows.fold([0.0f32; 2], |[low, high], row| {
-        [low.min((row[0] - row[2]) as f32), high.max((row[0] + row[2]) as f32)]
-    })
+    rows.fold([0.0f32; 2], |[low, high], row| [low.min((row[0] - row[2]) as f32), high.max((row[0] + row[2]) as f32)])
 }
 
 fn joined(a: [f32; 2], b: [f32; 2]) -> [f32; 2] {

@@ -79,11 +79,7 @@ impl TreeCastPipeline {
             cache.queue_render_pipeline(RenderPipelineDescriptor {
                 label: Some("horizon_cast_trees".into()),
                 layout: vec![self.layout.clone()],
-                vertex: VertexState {
-                    shader: shader.clone(),
-                    entry_point: Some("cast_plant".into()),
-                    ..default()
-                },
+                vertex: VertexState { shader: shader.clone(), entry_point: Some("cast_plant".into()), ..default() },
                 depth_stencil: Some(DepthStencilState {
                     format: CORE_3D_DEPTH_FORMAT,
                     depth_write_enabled: Some(true),
@@ -199,9 +195,8 @@ impl Caster<'_> {
     /// The cells of the plants that a light may see, relative to the centre's, of the tiles nearest to the eye.
     fn gather(&self, light: &LightView, all: &mut Vec<u32>) {
         let spacing = self.grove.woods().spacing();
-        let from_centre = |cell: i64, axis: usize| {
-            (cell.wrapping_sub(self.cell[axis]) as f64 * spacing - self.shift[axis]) as f32
-        };
+        let from_centre =
+            |cell: i64, axis: usize| (cell.wrapping_sub(self.cell[axis]) as f64 * spacing - self.shift[axis]) as f32;
         let eye = self.eye - self.centre;
         let mut tiles: Vec<_> = self
             .grove
