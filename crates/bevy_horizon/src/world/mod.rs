@@ -11,13 +11,14 @@ mod stamp;
 mod sun;
 mod sunlight;
 mod terrain;
+mod trees;
 mod water;
+mod woods;
 
 pub use air_light::{AtmosphereRejected, CompiledAtmosphere};
 pub(crate) use air_light::{brighten, compile_atmospheres, forget_atmosphere};
 pub(crate) use atmosphere::check_atmosphere;
 pub use atmosphere::{Atmosphere, SkyGradient, SkyModel};
-#[cfg(feature = "render")]
 pub(crate) use compiled::TerrainFields;
 pub use compiled::{CompiledTerrain, TerrainError, TerrainRejected};
 pub(crate) use compiled::{compile_terrain, forget_terrain};
@@ -39,3 +40,7 @@ pub use sunlight::{Sunlight, TimeOfDay, towards_sun};
 pub use terrain::{HeightImages, Terrain};
 pub use water::{CompiledWater, Water, WaterDisc, WaterError, WaterOutline, WaterPlace, WaterRectangle, WaterRejected};
 pub(crate) use water::{compile_waters, forget_water};
+pub use trees::{CompiledTrees, Felled, Trees, TreesError, TreesRejected};
+pub(crate) use trees::{compile_trees, forget_grown, forget_trees};
+#[cfg(feature = "render")]
+pub(crate) use woods::{Woods, WoodsChange};
