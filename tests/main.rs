@@ -26,4 +26,5 @@ mod sky;
 mod stability;
 mod stamps;
 mod targets;
+mod waves;
 mod worlds;

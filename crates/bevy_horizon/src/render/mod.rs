@@ -16,6 +16,7 @@ mod truth;
 mod uniforms;
 mod view;
 mod water;
+pub mod waves;
 
 use bevy::core_pipeline::schedule::camera_driver;
 use bevy::prelude::*;
@@ -72,6 +73,10 @@ impl Plugin for HorizonRenderPlugin {
             .init_resource::<passes::ShadePipelines>()
             .init_resource::<passes::WaterPipelines>()
             .init_resource::<water::HorizonWaters>()
+            .init_resource::<waves::ExtractedSeas>()
+            .init_resource::<waves::SeaClock>()
+            .init_resource::<waves::SeaFiller>()
+            .init_resource::<waves::SeaPipelines>()
             .init_resource::<passes::CastPipeline>()
             .init_resource::<passes::ClearancePipeline>()
             .init_resource::<air::AirTables>()
@@ -81,6 +86,7 @@ impl Plugin for HorizonRenderPlugin {
                 ExtractSchedule,
                 ((extract::extract_world, extract::extract_waters, extract::extract_cameras).chain(), truth::extract_truths),
             )
+            .add_systems(ExtractSchedule, waves::extract_water_time)
             .add_systems(
                 Render,
                 able::limit_samples.after(RenderSystems::ExtractCommands).before(RenderSystems::PrepareAssets),
@@ -92,6 +98,7 @@ impl Plugin for HorizonRenderPlugin {
                     (
                         cache::prepare_caches,
                         air::prepare_airs,
+                        waves::prepare_seas,
                         view::prepare_views,
                         (
                             passes::prepare_pipelines,
@@ -115,7 +122,7 @@ impl Plugin for HorizonRenderPlugin {
             )
             .add_systems(
                 RenderGraph,
-                (cache::fill_caches, air::fill_airs).chain().in_set(RenderGraphSystems::Render).before(camera_driver),
+                (cache::fill_caches, air::fill_airs, waves::fill_seas).chain().in_set(RenderGraphSystems::Render).before(camera_driver),
             );
         passes::add_ground(render_app);
     }

@@ -12,6 +12,7 @@ mod sun;
 mod sunlight;
 mod terrain;
 mod water;
+mod water_time;
 
 pub use air_light::{AtmosphereRejected, CompiledAtmosphere};
 pub(crate) use air_light::{brighten, compile_atmospheres, forget_atmosphere};
@@ -39,3 +40,5 @@ pub use sunlight::{Sunlight, TimeOfDay, towards_sun};
 pub use terrain::{HeightImages, Terrain};
 pub use water::{CompiledWater, Water, WaterDisc, WaterError, WaterOutline, WaterPlace, WaterRectangle, WaterRejected};
 pub(crate) use water::{compile_waters, forget_water};
+pub use water_time::WaterTime;
+pub(crate) use water_time::advance_water;
