@@ -27,4 +27,5 @@ mod stability;
 mod stamps;
 mod targets;
 mod trees;
+mod waves;
 mod worlds;

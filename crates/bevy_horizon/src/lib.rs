@@ -96,6 +96,8 @@ pub struct HorizonWorldPlugin;
 impl Plugin for HorizonWorldPlugin {
     fn build(&self, app: &mut App) {
         app.init_resource::<world::WorldOrigin>()
+            .init_resource::<world::WaterTime>()
+            .register_type::<world::WaterTime>()
             .register_type::<world::Terrain>()
             .register_type::<world::Stamp>()
             .register_type::<world::Atmosphere>()
@@ -122,6 +124,7 @@ impl Plugin for HorizonWorldPlugin {
                 )
                     .in_set(HorizonSystems::Compile),
             )
+            .add_systems(PreUpdate, world::advance_water.run_if(resource_exists::<Time<Virtual>>))
             .add_systems(Update, world::turn_suns.run_if(resource_exists::<Time>))
             .add_observer(world::forget_terrain)
             .add_observer(world::forget_water)

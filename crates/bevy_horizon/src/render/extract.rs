@@ -20,7 +20,7 @@ use super::passes::{ViewClearance, ViewGeometry, ViewPasses, ViewShade, ViewTree
 use super::trees::ViewGrove;
 use super::view::{ViewBefore, ViewGround};
 use super::water::ExtractedWater;
-use super::waves::ExtractedSeas;
+use super::waves::{ExtractedSeas, MOST_SEAS};
 use crate::camera::HorizonCamera;
 use crate::world::{
     Atmosphere, CompiledAtmosphere, CompiledStamps, CompiledTerrain, CompiledTrees, CompiledWater, Sunlight,
@@ -234,9 +234,6 @@ pub fn extract_atmospheres(
 
 type Waters<'w, 's> =
     Query<'w, 's, (&'static CompiledWater, Option<&'static WaterPlace>, &'static GlobalTransform, &'static InheritedVisibility, Option<&'static RenderLayers>)>;
-
-/// Seas whose waves the tiles have room for.
-const MOST_SEAS: usize = 4;
 
 /// Water is drawn only where the world is: after [`extract_world`].
 pub fn extract_waters(mut world: ResMut<ExtractedWorld>, mut seas: ResMut<ExtractedSeas>, waters: Extract<Waters>) {

@@ -17,7 +17,7 @@ mod truth;
 mod uniforms;
 mod view;
 mod water;
-mod waves;
+pub mod waves;
 
 use bevy::core_pipeline::schedule::camera_driver;
 use bevy::prelude::*;
@@ -76,6 +76,9 @@ impl Plugin for HorizonRenderPlugin {
             .init_resource::<water::HorizonWaters>()
             .init_resource::<waves::ExtractedSeas>()
             .init_resource::<passes::TreePipelines>()
+            .init_resource::<waves::SeaClock>()
+            .init_resource::<waves::SeaFiller>()
+            .init_resource::<waves::SeaPipelines>()
             .init_resource::<passes::CastPipeline>()
             .init_resource::<passes::TreeCastPipeline>()
             .init_resource::<trees::Groves>()
@@ -87,6 +90,7 @@ impl Plugin for HorizonRenderPlugin {
                 ExtractSchedule,
                 ((extract::extract_world, extract::extract_waters, extract::extract_cameras).chain(), truth::extract_truths),
             )
+            .add_systems(ExtractSchedule, waves::extract_water_time)
             .add_systems(
                 Render,
                 able::limit_samples.after(RenderSystems::ExtractCommands).before(RenderSystems::PrepareAssets),
@@ -99,6 +103,7 @@ impl Plugin for HorizonRenderPlugin {
                         cache::prepare_caches,
                         trees::prepare_groves,
                         air::prepare_airs,
+                        waves::prepare_seas,
                         view::prepare_views,
                         (
                             passes::prepare_pipelines,
@@ -125,7 +130,7 @@ impl Plugin for HorizonRenderPlugin {
             )
             .add_systems(
                 RenderGraph,
-                (cache::fill_caches, air::fill_airs).chain().in_set(RenderGraphSystems::Render).before(camera_driver),
+                (cache::fill_caches, air::fill_airs, waves::fill_seas).chain().in_set(RenderGraphSystems::Render).before(camera_driver),
             );
         passes::add_ground(render_app);
     }

@@ -7,7 +7,7 @@ use bevy::asset::uuid::Uuid;
 use bevy::asset::{Assets, Handle};
 use bevy::shader::Shader;
 use horizon_field::material::compile::CUTOFF;
-use horizon_field::{stamp, trees};
+use horizon_field::{stamp, trees, waves};
 use horizon_light::models::{gradient, shaders as light};
 use horizon_light::{sun, water as water_light};
 
@@ -64,6 +64,12 @@ pub enum Source {
     Water { sky: WaterSky, multisampled: bool, waves: bool, ground: bool },
     /// Plants in shadow maps.
     CastTrees,
+    /// Waves at a time.
+    SeaTransform,
+    /// Waves over the plane.
+    SeaSurface,
+    /// Waves at every size.
+    SeaMeans,
     /// The simplest air.
     Gradient { ldr: bool, multisampled: bool },
     /// The air by a model that has tables.
@@ -105,6 +111,7 @@ impl Source {
     fn all() -> Vec<Self> {
         let mut all =
             vec![Self::Pyramid, Self::Light, Self::Clearance, Self::Transmittance, Self::Isotropic, Self::CastTrees];
+        all.extend([Self::SeaTransform, Self::SeaSurface, Self::SeaMeans]);
         all.extend(EITHER.map(|holes| Self::Cast { holes }));
         all.extend(EITHER.map(|first| Self::Moments { first }));
         all.extend(MODELS.map(|model| Self::ViewTables { model }));
@@ -155,6 +162,9 @@ impl Source {
                 0x60 + 8 * sky as u128 + bits(&[multisampled, waves, ground])
             }
             Self::Shade { deferred, multisampled, air, trees } => 0x40 + bits(&[deferred, multisampled, air, trees]),
+            Self::SeaTransform => 0x58,
+            Self::SeaSurface => 0x59,
+            Self::SeaMeans => 0x5a,
         }
     }
 
@@ -183,6 +193,9 @@ impl Source {
             Self::Shade { deferred: false, .. } => "shade_forward",
             Self::Shade { deferred: true, .. } => "shade_deferred",
             Self::Water { .. } => "water",
+            Self::SeaTransform => "sea_transform",
+            Self::SeaSurface => "sea_surface",
+            Self::SeaMeans => "sea_means",
             Self::Gradient { multisampled: false, .. } => "sky_gradient",
             Self::Gradient { multisampled: true, .. } => "sky_gradient_multisampled",
             Self::Air { multisampled: false, .. } => "sky_air",
@@ -217,6 +230,9 @@ impl Source {
                 [&sky_common(ldr, multisampled), &air_model(model), include_str!("passes/sky_air.wgsl")].join("\n")
             }
             Self::Water { sky, multisampled, waves, ground } => water(sky, multisampled, waves, ground),
+            Self::SeaTransform => sea(include_str!("waves/transform.wgsl")),
+            Self::SeaSurface => sea(include_str!("waves/surface.wgsl")),
+            Self::SeaMeans => include_str!("waves/means.wgsl").to_owned(),
             Self::Transmittance => [light::BASE, include_str!("air/transmittance_table.wgsl")].join("\n"),
             Self::Moments { first: true } => {
                 let parts =
@@ -266,6 +282,11 @@ pub fn shader_constants() -> String {
 /// The drawn surface, behind what it counts by.
 fn surface() -> String {
     [&shader_constants(), SURFACE].join("\n")
+}
+
+/// A pass over the buffers of the waves.
+fn sea(pass: &str) -> String {
+    [&waves::constants(), include_str!("waves/bindings.wgsl"), pass].join("\n")
 }
 
 fn present(ldr: bool) -> &'static str {

@@ -13,6 +13,7 @@ mod sunlight;
 mod terrain;
 mod trees;
 mod water;
+mod water_time;
 mod woods;
 
 pub use air_light::{AtmosphereRejected, CompiledAtmosphere};
@@ -44,3 +45,5 @@ pub use trees::{CompiledTrees, Felled, Trees, TreesError, TreesRejected};
 pub(crate) use trees::{compile_trees, forget_grown, forget_trees};
 #[cfg(feature = "render")]
 pub(crate) use woods::{Woods, WoodsChange};
+pub use water_time::WaterTime;
+pub(crate) use water_time::advance_water;

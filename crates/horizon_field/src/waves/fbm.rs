@@ -18,6 +18,9 @@ const TURN: f64 = 0.6;
 /// How far the tiles' drifts are apart, in radians: their sum does not move as a whole.
 const APART: [f64; CASCADES] = [0.0, 0.4, -0.4];
 
+/// No tile goes on more often in a period, which would be a thousand times a second: beats stay whole in single precision.
+const FASTEST: f64 = 262_144.0;
+
 /// A tile's octave: P, the amplitude, the seed.
 struct Octave {
     p: [i64; 2],
@@ -43,7 +46,8 @@ pub(super) fn fbm(model: &FbmWaves) -> Vec<Cascade> {
         (fit, amplitude) = (fit * model.lacunarity, amplitude * model.gain);
     }
     let of_tile = |((side, octaves), apart): ((f64, Vec<Octave>), f64)| {
-        let drift = towards(model.heading + apart).map(|along| (along * model.speed * PERIOD / side).round() as i32);
+        let drift = towards(model.heading + apart)
+            .map(|along| (along * model.speed * PERIOD / side).round().clamp(-FASTEST, FASTEST) as i32);
         Cascade::new(side, 0.0, waves(&octaves, drift))
     };
     sides.into_iter().zip(tiles).zip(APART).map(of_tile).collect()

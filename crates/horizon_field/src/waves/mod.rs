@@ -135,6 +135,17 @@ pub enum WavesError {
     Param(#[from] FieldError),
 }
 
+/// What Rust and shaders both count by, as the shaders have it.
+pub fn constants() -> String {
+    use resolve::{FARTHEST, LEAST, STEPS};
+    let (rows, stages) = (2 * REACH + 1, GRID.ilog2());
+    format!(
+        "const GRID: u32 = {GRID}u;\nconst REACH: i32 = {REACH};\nconst ROWS: u32 = {rows}u;\n\
+         const STAGES: u32 = {stages}u;\nconst LINEAR_STEPS: u32 = {STEPS}u;\nconst LEAST_DETERMINANT: f32 = {LEAST:?};\n\
+         const FARTHEST_STEP: f32 = {FARTHEST:?};\nconst STEEPEST: f32 = {STEEPEST:?};\n"
+    )
+}
+
 /// The unit vector of a heading, as x and z.
 pub(crate) fn towards(heading: f64) -> [f64; 2] {
     [libm::sin(heading), -libm::cos(heading)]

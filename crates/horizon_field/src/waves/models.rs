@@ -15,7 +15,7 @@ node! {
         wavelength: f64 = 24.0, "The longest wave's length.", in 0.05 .. 10000.0 "m";
         amplitude: f64 = 0.5, "The sum of all amplitudes: no crest is higher. Waves are as high as they are long.", in 0.0 .. 100.0 "m";
         heading: f64 = 0.8, "Where the wind blows to.", in -1e3 .. 1e3 "rad";
-        spread: f64 = 0.7, "How far from the wind's heading a wave's may be.", in 0.0 .. 3.1416 "rad";
+        spread: f64 = 0.7, "How far from the wind's heading a wave's may be.", in 0.0 .. 3.15 "rad";
         seed: u32 = 0, "The seed of headings and phases.", in 0.0 .. 4294967295.0 "";
     }
 }
@@ -28,7 +28,7 @@ node! {
         amplitude: f64 = 0.5, "The sum of all amplitudes: no crest is higher. Waves are as high as they are long.", in 0.0 .. 100.0 "m";
         steepness: f64 = 0.7, "How near to a cusp crests come: 0 leaves sines, at 1 there is a cusp where all crests meet, and never a loop.", in 0.0 .. 1.0 "";
         heading: f64 = 0.8, "Where the wind blows to.", in -1e3 .. 1e3 "rad";
-        spread: f64 = 0.7, "How far from the wind's heading a wave's may be.", in 0.0 .. 3.1416 "rad";
+        spread: f64 = 0.7, "How far from the wind's heading a wave's may be.", in 0.0 .. 3.15 "rad";
         seed: u32 = 0, "The seed of headings and phases.", in 0.0 .. 4294967295.0 "";
     }
 }

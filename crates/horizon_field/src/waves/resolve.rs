@@ -7,11 +7,11 @@
 use super::GRID;
 
 /// Steps by bilinear interpolation.
-const STEPS: usize = 3;
+pub(super) const STEPS: usize = 3;
 /// The least determinant that a step is divided by.
-const LEAST: f64 = 0.2;
+pub(super) const LEAST: f64 = 0.2;
 /// How far a step may go, in texels.
-const FARTHEST: f64 = 8.0;
+pub(super) const FARTHEST: f64 = 8.0;
 
 /// A function of the plane, and its slopes along x and z, per texel.
 type Jet = [f64; 3];
