@@ -21,8 +21,8 @@ use thiserror::Error;
 
 use crate::HorizonSystems;
 use crate::world::{
-    Atmosphere, CompiledTerrain, ParamError, Stamp, StampPlace, Sun, Terrain, TerrainError, Water, WaterError, WaterPlace,
     Atmosphere, CompiledTerrain, Felled, ParamError, Stamp, StampPlace, Sun, Terrain, TerrainError, Trees, TreesError,
+    Water, WaterError, WaterPlace,
     check_atmosphere, check_params,
 };
 #[cfg(feature = "render")]
@@ -188,6 +188,7 @@ impl WorldFile {
             for (name, value) in [("level", level), ("middle[0]", x), ("middle[1]", z)] {
                 check_length(&format!("waters[{i}].{name}"), *value)?;
             }
+        }
         if let Some(trees) = &self.trees {
             trees.check("trees")?;
             trees.forest.density.check()?;
@@ -222,11 +223,7 @@ fn options() -> ron::Options {
 fn line_of(text: &str, error: &TerrainError) -> Option<usize> {
     let (path, value) = match error {
         TerrainError::Param(ParamError { field, value, .. })
-        | TerrainError::Water(WaterError::Param(ParamError { field, value, .. })) => (field.as_str(), Some(*value)),
-        TerrainError::Material(MaterialError::TooManyLayers { .. }) => ("layers", None),
-        TerrainError::Field(error)
-        | TerrainError::Stamp(StampError::Param(error))
-        | TerrainError::Water(WaterError::Waves(WavesError::Param(error)))
+        | TerrainError::Water(WaterError::Param(ParamError { field, value, .. }))
         | TerrainError::Trees(TreesError::Param(ParamError { field, value, .. })) => (field.as_str(), Some(*value)),
         TerrainError::Trees(TreesError::Forest(
             ForestError::Species { path, .. } | ForestError::Reach { path, .. },
@@ -234,6 +231,7 @@ fn line_of(text: &str, error: &TerrainError) -> Option<usize> {
         TerrainError::Material(MaterialError::TooManyLayers { .. }) => ("layers", None),
         TerrainError::Field(error)
         | TerrainError::Stamp(StampError::Param(error))
+        | TerrainError::Water(WaterError::Waves(WavesError::Param(error)))
         | TerrainError::Trees(TreesError::Forest(ForestError::Param(error) | ForestError::Field { error, .. }))
         | TerrainError::Material(MaterialError::Value(error) | MaterialError::Mask { source: error, .. }) => {
             match error {

@@ -363,7 +363,7 @@ fn water(sky: WaterSky, multisampled: bool, waves: bool, ground: bool) -> String
     let depth = if multisampled { DEPTH_MULTISAMPLED } else { DEPTH_SINGLE };
     let mut parts = vec![VIEW, depth, water_light::WGSL];
     let surface = surface();
-    let grid = format!("const WAVE_GRID: f32 = {}.0;\n", horizon_field::waves::GRID);
+    let grid = format!("const WAVE_GRID: f32 = {}.0;\n", waves::GRID);
     parts.extend([grid.as_str(), include_str!("passes/water_bodies.wgsl")]);
     parts.push(if waves { include_str!("passes/water_waves.wgsl") } else { include_str!("passes/water_still.wgsl") });
     match sky {

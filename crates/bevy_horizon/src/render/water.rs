@@ -54,10 +54,10 @@ impl OpticsUniform {
 /// `WaveCascade` of `water_bodies.wgsl`.
 #[derive(Clone, Copy, Debug, Default, ShaderType)]
 pub struct CascadeUniform {
+    #[shader(align(16))]
     pub phase: Vec2,
     pub per_metre: f32,
     pub bound: f32,
-    #[shader(align(8))]
     pub layer: u32,
 }
 

@@ -8,8 +8,7 @@ use horizon_field::stamp::StampError;
 use horizon_field::{Compiled, FieldError};
 use thiserror::Error;
 
-use super::{CompiledStamps, ParamError, Terrain, WaterError};
-use super::{CompiledStamps, ParamError, Terrain, TreesError};
+use super::{CompiledStamps, ParamError, Terrain, TreesError, WaterError};
 
 /// What [`Terrain`] became: the compiled height field and the compiled material. Shared with queries and renderer.
 /// After a bad edit the last good one stays.

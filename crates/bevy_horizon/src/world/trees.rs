@@ -127,7 +127,7 @@ pub(crate) fn compile_trees(
             felled: felled.map(|felled| felled.0.clone()).unwrap_or_default(),
         }) {
             Ok(woods) => {
-                commands.entity(entity).insert(CompiledTrees { woods: Arc::new(woods), trees: trees.clone() });
+                commands.entity(entity).insert(CompiledTrees { woods: Arc::new(woods), trees: Trees::clone(&trees) });
             }
             Err(error) => {
                 error!("the trees of terrain {entity} were rejected, what was there before stays: {error}");

@@ -4,7 +4,7 @@
 
 struct WaveCascade {
     // Where in its tile the eye stands, and tiles per metre.
-    phase: vec2<f32>,
+    @align(16) phase: vec2<f32>,
     per_metre: f32,
     // The highest that it gets, in metres; its layer of the tiles.
     bound: f32,
