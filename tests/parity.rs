@@ -3,6 +3,7 @@
 mod bits;
 mod holes;
 mod stamps;
+mod sun_words;
 
 use std::time::Instant;
 

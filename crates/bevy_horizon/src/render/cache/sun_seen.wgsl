@@ -1,6 +1,7 @@
-// How much of the sun's disc a point sees, in 16 bits for one point in 2 × 2 texels: a byte that says how far the ground hides
-// the disc there, and one that says over what height above the ground the penumbra goes by, so that what stands above the ground is
-// lit as its own height has it. Needs surface.wgsl.
+// How much of the sun's disc a point sees, in 16 bits for one point in 2 × 2 texels: how far the ground hides the disc there, and over
+// what height above the ground the penumbra goes by, so that what stands above the ground is lit as its own height has it. While
+// some of the disc is seen, that are 7 bits of its part and 8 of the penumbra; behind a set bit, 10 of how deep the point lies in
+// the shadow and 5 of the penumbra: an edge on what stands there is off by half a percent of its height. Needs surface.wgsl.
 
 // log2 of the lowest penumbra that is kept, in metres, and of the ratio to the highest.
 const PENUMBRA_LOW: f32 = -10.0;
@@ -20,26 +21,41 @@ fn line_under(part: f32) -> f32 {
     return y * (0.785 + 0.215 * y * y);
 }
 
-// `x` is how high the ground stands before the disc, in its radii; `penumbra` how many metres further up that is one less.
-fn packed_sun(x: f32, penumbra: f32) -> u32 {
-    let seen = floor(127.0 * disc_above(x) + 0.5);
-    let deep = 128.0 + floor(clamp(log2(max(x, 1.0)) / DEEPEST, 0.0, 1.0) * 127.0 + 0.5);
-    let high = clamp((log2(max(penumbra, 1e-9)) - PENUMBRA_LOW) / PENUMBRA_SPAN, 0.0, 1.0);
-    return u32(select(seen, deep, x >= 1.0)) | (u32(floor(high * 255.0 + 0.5)) << 8u);
+const DEEP: u32 = 0x8000u;
+
+// A penumbra of so many metres as a part of the span, and back.
+fn penumbra_part(penumbra: f32) -> f32 {
+    return clamp((log2(max(penumbra, 1e-9)) - PENUMBRA_LOW) / PENUMBRA_SPAN, 0.0, 1.0);
 }
 
-// The part of the disc that is seen from so many metres above the ground.
-fn unpacked_sun(word: u32, above: f32) -> f32 {
-    let code = word & 255u;
-    let seen = select(0.0, f32(code) / 127.0, code < 128u);
-    if (above <= 0.0 || code == 127u) {
-        return seen;
+fn penumbra_of(part: f32) -> f32 {
+    return exp2(part * PENUMBRA_SPAN + PENUMBRA_LOW);
+}
+
+// `x` is how high the ground stands before the disc, in its radii; `penumbra` how many metres further up that is one less.
+fn packed_sun(x: f32, penumbra: f32) -> u32 {
+    let part = penumbra_part(penumbra);
+    if (x >= 1.0) {
+        let width = floor(part * 31.0 + 0.5);
+        // In penumbras as they will be read: the depth is no coarser for them.
+        let deep = max(x * penumbra / penumbra_of(width / 31.0), 1.0);
+        return DEEP | (u32(width) << 10u) | u32(floor(clamp(log2(deep) / DEEPEST, 0.0, 1.0) * 1023.0 + 0.5));
     }
-    let x = select(exp2(f32(code - 128u) / 127.0 * DEEPEST), line_under(seen), code < 128u);
-    return disc_above(x - above / unpacked_penumbra(word));
+    return (u32(floor(part * 255.0 + 0.5)) << 7u) | u32(floor(127.0 * disc_above(x) + 0.5));
+}
+
+// The part of the disc that the ground sees.
+fn unpacked_seen(word: u32) -> f32 {
+    return select(f32(word & 127u) / 127.0, 0.0, word >= DEEP);
 }
 
 // Over what height that changes by a radius of the disc, in metres.
 fn unpacked_penumbra(word: u32) -> f32 {
-    return exp2(f32(word >> 8u) / 255.0 * PENUMBRA_SPAN + PENUMBRA_LOW);
+    return penumbra_of(select(f32(word >> 7u) / 255.0, f32((word >> 10u) & 31u) / 31.0, word >= DEEP));
+}
+
+// How far over the ground the disc's centre comes into sight, in metres; negative, by at most a penumbra, where the ground sees it.
+fn unpacked_depth(word: u32) -> f32 {
+    let x = select(line_under(unpacked_seen(word)), exp2(f32(word & 1023u) / 1023.0 * DEEPEST), word >= DEEP);
+    return x * unpacked_penumbra(word);
 }

@@ -98,7 +98,8 @@ impl LightView {
 }
 
 /// The patches that a light may see, of levels whose quads are not much finer than the map. Where texels are wider than quads should
-/// be, as under smooth ground, every texel is a quad; ground that only casts into the map from far away has wider ones.
+/// be, as under smooth ground, every texel is a quad; ground that only casts into the map from far away has wider ones, of two texels
+/// or of four.
 pub fn patches(cache: &Cache, light: &LightView, heights: [f32; 2], patches: &mut Vec<Patch>) {
     let metres = |exponent: i32| (exponent as f32).exp2();
     let coarsest = cache.drawn.iter().rposition(|level| level.outer > 0.0);
@@ -122,7 +123,12 @@ pub fn patches(cache: &Cache, light: &LightView, heights: [f32; 2], patches: &mu
                 continue;
             }
             let wanted = light.quad_at(light.place.truncate().clamp(low, high));
-            let least = if finest && light.covers(low, high) { 1 } else { WIDEST };
+            let least = match finest {
+                true if light.covers(low, high) => 1,
+                // Smooth ground has texels as wide as it may bow: four of them bow sixteen times as far.
+                true if texel > wanted => 2,
+                _ => WIDEST,
+            };
             let quad = [WIDEST, 2].into_iter().find(|quad| *quad as f32 * texel <= wanted).unwrap_or(1).max(least);
             let side = i32::from(QUADS) * quad;
             let end = corner.map(|c| c + tile);
