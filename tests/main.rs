@@ -26,5 +26,6 @@ mod sky;
 mod stability;
 mod stamps;
 mod targets;
+mod trees;
 mod waves;
 mod worlds;

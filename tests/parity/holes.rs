@@ -7,6 +7,7 @@ use crate::device;
 
 const SURFACE: &str = include_str!("../../crates/bevy_horizon/src/render/cache/surface.wgsl");
 const LOOK: &str = include_str!("../../crates/bevy_horizon/src/render/passes/look.wgsl");
+const RAY: &str = include_str!("../../crates/bevy_horizon/src/render/cache/ray.wgsl");
 const MARCH: &str = include_str!("../../crates/bevy_horizon/src/render/cache/march.wgsl");
 
 /// Texels along a level's side, in 4 × 4 tiles.
@@ -206,7 +207,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     found[id.x] = vec4<f32>(hit.t, f32(hit.steps), 0.0, 0.0);
 }
 ";
-    let source = ["const HEAT: bool = true;", &shader_constants(), SURFACE, LOOK, MARCH, main].join("\n");
+    let source = ["const HEAT: bool = true;", &shader_constants(), SURFACE, LOOK, RAY, MARCH, main].join("\n");
     let source = source.replace("var<uniform> clipmap", "var<storage, read> clipmap");
     let [clipmap, heights, bounds, looks] = buffers;
     let groups: [&[&[u8]]; 1] = [&[clipmap, heights, bounds, looks, bytemuck::cast_slice(rays), &holes.to_le_bytes()]];

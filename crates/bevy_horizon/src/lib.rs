@@ -38,6 +38,7 @@ pub mod scene;
 pub mod world;
 
 pub use horizon_field::stamp;
+pub use horizon_field::trees;
 
 use bevy::app::PluginGroupBuilder;
 use bevy::prelude::*;
@@ -52,13 +53,13 @@ pub mod prelude {
     pub use crate::camera::{DebugView, HorizonCamera};
     #[cfg(feature = "picking")]
     pub use crate::picking::HorizonPickingPlugin;
-    pub use crate::query::{GroundHit, HorizonQuery};
+    pub use crate::query::{GroundHit, HorizonQuery, StandingPlant, Surroundings, WaterSurface};
     #[cfg(feature = "render")]
     pub use crate::render::ready::{WorldProgress, WorldReady};
     pub use crate::scene::{HorizonWorld, WorldFile};
     pub use crate::world::{
-        Atmosphere, SkyGradient, SkyModel, Stamp, StampPlace, Sun, Sunlight, Terrain, TerrainMaterial, TimeOfDay, Water,
-        WaterDisc, WaterOutline, WaterRectangle, WorldOrigin,
+        Atmosphere, Felled, SkyGradient, SkyModel, Stamp, StampPlace, Sun, Sunlight, Terrain, TerrainMaterial,
+        TimeOfDay, Trees, Water, WaterDisc, WaterOutline, WaterRectangle, WaterTime, WorldOrigin,
     };
     pub use crate::{HorizonPlugins, HorizonSystems};
     pub use horizon_field::waves::Waves;
@@ -105,12 +106,19 @@ impl Plugin for HorizonWorldPlugin {
             .add_message::<world::TerrainRejected>()
             .add_message::<world::StampRejected>()
             .add_message::<world::GroundChanged>()
+            .register_type::<world::Trees>()
+            .add_message::<world::TreesRejected>()
             .register_type::<world::TimeOfDay>()
             .add_message::<world::AtmosphereRejected>()
             .add_systems(
                 PostUpdate,
                 (
-                    (world::compile_terrain, world::compile_stamps.after(TransformSystems::Propagate)).chain(),
+                    (
+                        world::compile_terrain,
+                        world::compile_stamps.after(TransformSystems::Propagate),
+                        world::compile_trees,
+                    )
+                        .chain(),
                     (world::brighten, world::compile_atmospheres).chain(),
                     world::compile_waters,
                 )
@@ -119,7 +127,9 @@ impl Plugin for HorizonWorldPlugin {
             .add_systems(PreUpdate, world::advance_water.run_if(resource_exists::<Time<Virtual>>))
             .add_systems(Update, world::turn_suns.run_if(resource_exists::<Time>))
             .add_observer(world::forget_terrain)
-            .add_observer(world::forget_atmosphere)
-            .add_observer(world::forget_water);
+            .add_observer(world::forget_water)
+            .add_observer(world::forget_trees)
+            .add_observer(world::forget_grown)
+            .add_observer(world::forget_atmosphere);
     }
 }

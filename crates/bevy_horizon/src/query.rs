@@ -1,11 +1,16 @@
 //! Questions that the world answers on the CPU, in the same frame, without asking the device.
 
+mod water;
+
 use bevy::ecs::system::SystemParam;
+use bevy::math::Vec3Swizzles;
 use bevy::prelude::*;
 use horizon_field::CELL;
 use horizon_field::march::{Anchored, Cast, Ray, Surface};
+use horizon_field::trees::{ForestError, Plant, PlantId};
 
-use crate::world::{CompiledStamps, CompiledTerrain, WorldOrigin};
+pub use self::water::{Surroundings, WaterSurface};
+use crate::world::{CompiledStamps, CompiledTerrain, CompiledTrees, WorldOrigin};
 
 /// Asks the ground: height, normal, slope, ray cast. Positions are Bevy's, in metres; the answer is that of the full
 /// field with all its octaves and [`Stamp`](crate::world::Stamp)s, exact to f64 wherever in the world [`WorldOrigin`] stands.
@@ -31,6 +36,8 @@ use crate::world::{CompiledStamps, CompiledTerrain, WorldOrigin};
 pub struct HorizonQuery<'w, 's> {
     terrains:
         Query<'w, 's, (Entity, &'static CompiledTerrain, Option<&'static CompiledStamps>, &'static GlobalTransform)>,
+    waters: water::Waters<'w, 's>,
+    trees: Query<'w, 's, (&'static CompiledTrees, &'static GlobalTransform)>,
     origin: Res<'w, WorldOrigin>,
 }
 
@@ -45,6 +52,21 @@ pub struct GroundHit {
     pub position: Vec3,
     /// The ground's unit normal.
     pub normal: Vec3,
+}
+
+/// A plant, as it stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StandingPlant {
+    /// Its name, which stays: put it into [`Felled`](crate::world::Felled), and it stands no more.
+    pub id: PlantId,
+    /// The foot of its trunk, in Bevy's coordinates.
+    pub position: Vec3,
+    /// From the foot to the top, in metres.
+    pub height: f32,
+    /// The crown's radius, in metres.
+    pub radius: f32,
+    /// Which of the forest's species it is.
+    pub species: usize,
 }
 
 /// One terrain, anchored at the [`WorldOrigin`]: for questions by the thousand.
@@ -104,6 +126,27 @@ impl HorizonQuery<'_, '_> {
     /// `max_distance` metres, where a number is not finite, or without a terrain.
     pub fn ray_cast(&self, origin: Vec3, direction: Dir3, max_distance: f32) -> Option<GroundHit> {
         self.ground(None)?.ray_cast(origin, direction, max_distance)
+    }
+
+    /// The plants whose trunks stand in a rectangle of the plane, x and z in Bevy's coordinates: exactly those of the picture, as far as
+    /// that shows any. None without [`Trees`](crate::world::Trees); where there are several, of the first.
+    ///
+    /// # Errors
+    /// A rectangle of more than 2²⁴ cells of the forest, or one that is not a number.
+    pub fn trees_in(&self, area: Rect) -> Result<Vec<StandingPlant>, ForestError> {
+        let Some((trees, transform)) = self.trees.iter().next() else { return Ok(Vec::new()) };
+        let terrain = transform.translation();
+        let low = (area.min - terrain.xz()).as_dvec2();
+        let corner = self.origin.0.translated([low.x, 0.0, low.y]);
+        let plants = trees.woods.plants_in(&corner, area.size().as_dvec2().to_array())?;
+        let standing = |plant: &Plant| StandingPlant {
+            id: plant.id,
+            position: self.origin.position(&plant.place) + terrain,
+            height: plant.height,
+            radius: plant.radius,
+            species: plant.species.into(),
+        };
+        Ok(plants.iter().map(standing).collect())
     }
 
     /// Many ray casts; the answers are in the rays' order.

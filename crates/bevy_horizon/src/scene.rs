@@ -15,12 +15,14 @@ use horizon_field::material::MaterialError;
 use horizon_field::Place;
 use horizon_field::stamp::{Placed, StampError};
 use horizon_field::waves::WavesError;
+use horizon_field::trees::ForestError;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::HorizonSystems;
 use crate::world::{
     Atmosphere, CompiledTerrain, ParamError, Stamp, StampPlace, Sun, Terrain, TerrainError, Water, WaterError, WaterPlace,
+    Atmosphere, CompiledTerrain, Felled, ParamError, Stamp, StampPlace, Sun, Terrain, TerrainError, Trees, TreesError,
     check_atmosphere, check_params,
 };
 #[cfg(feature = "render")]
@@ -50,6 +52,12 @@ pub struct WorldFile {
     /// Local edits of the ground. Default: none.
     #[serde(default)]
     pub stamps: Vec<Placed>,
+    /// What grows on the ground. Default: nothing.
+    #[serde(default)]
+    pub trees: Option<Trees>,
+    /// Plants that stand no more, by their names. Default: none.
+    #[serde(default)]
+    pub felled: Felled,
     /// A good place to look from.
     #[serde(default)]
     pub view: Viewpoint,
@@ -180,6 +188,10 @@ impl WorldFile {
             for (name, value) in [("level", level), ("middle[0]", x), ("middle[1]", z)] {
                 check_length(&format!("waters[{i}].{name}"), *value)?;
             }
+        if let Some(trees) = &self.trees {
+            trees.check("trees")?;
+            trees.forest.density.check()?;
+            trees.forest.species_of.check()?;
         }
         for (i, stamp) in self.stamps.iter().enumerate() {
             stamp.check(&format!("stamps[{i}]"))?;
@@ -215,6 +227,14 @@ fn line_of(text: &str, error: &TerrainError) -> Option<usize> {
         TerrainError::Field(error)
         | TerrainError::Stamp(StampError::Param(error))
         | TerrainError::Water(WaterError::Waves(WavesError::Param(error)))
+        | TerrainError::Trees(TreesError::Param(ParamError { field, value, .. })) => (field.as_str(), Some(*value)),
+        TerrainError::Trees(TreesError::Forest(
+            ForestError::Species { path, .. } | ForestError::Reach { path, .. },
+        )) => (path.as_str(), None),
+        TerrainError::Material(MaterialError::TooManyLayers { .. }) => ("layers", None),
+        TerrainError::Field(error)
+        | TerrainError::Stamp(StampError::Param(error))
+        | TerrainError::Trees(TreesError::Forest(ForestError::Param(error) | ForestError::Field { error, .. }))
         | TerrainError::Material(MaterialError::Value(error) | MaterialError::Mask { source: error, .. }) => {
             match error {
                 FieldError::OutOfRange { path, value, .. } | FieldError::NotFinite { path, value } => {
@@ -264,7 +284,9 @@ impl AssetLoader for WorldLoader {
         let mut world = WorldFile::from_ron(&text)?;
         if let Some(terrain) = &mut world.terrain {
             let mut images = BTreeMap::new();
-            for path in terrain.field.image_paths().into_iter().chain(terrain.material.image_paths()) {
+            let forest = world.trees.iter().flat_map(|trees| [&trees.forest.density, &trees.forest.species_of]);
+            let grown = forest.flat_map(|field| field.image_paths());
+            for path in terrain.field.image_paths().into_iter().chain(terrain.material.image_paths()).chain(grown) {
                 if images.contains_key(&path) {
                     continue;
                 }
@@ -286,6 +308,7 @@ impl AssetLoader for WorldLoader {
 }
 
 /// Put it on an entity, and the file's terrain and air appear on it, its sun, its waters and its stamps as children. When the file changes, they do.
+/// Put it on an entity, and the file's terrain, plants and air appear on it, its sun and its stamps as children. When the file changes, they do.
 /// A file with a sun also sets Bevy's `GlobalAmbientLight`: to the sky's light, or without air that makes it, to the sun's `ambient`.
 #[derive(Component, Clone, Debug, Default, Reflect)]
 #[reflect(Component, Default, Clone)]
@@ -371,6 +394,10 @@ fn apply_worlds(
             Some(terrain) if current == Some(terrain) => &mut entity,
             Some(terrain) => entity.insert(terrain.clone()),
             None => entity.remove::<Terrain>(),
+        };
+        match &file.trees {
+            Some(trees) => entity.insert((trees.clone(), file.felled.clone())),
+            None => entity.remove::<(Trees, Felled)>(),
         };
         match &file.atmosphere {
             Some(atmosphere) => entity.insert(atmosphere.clone()),

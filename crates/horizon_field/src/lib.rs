@@ -15,6 +15,7 @@ pub mod noise;
 pub mod place;
 pub mod real;
 pub mod stamp;
+pub mod trees;
 pub mod truth;
 pub mod waves;
 

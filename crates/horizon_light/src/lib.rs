@@ -17,3 +17,4 @@ pub mod reference;
 pub mod solar;
 pub mod spectrum;
 pub mod sun;
+pub mod water;

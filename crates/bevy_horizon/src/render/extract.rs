@@ -1,5 +1,6 @@
 //! What the renderer takes from the main world, each frame.
 
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use bevy::camera::visibility::{InheritedVisibility, RenderLayers};
@@ -9,19 +10,21 @@ use bevy::render::Extract;
 use bevy::render::renderer::RenderDevice;
 use bevy::render::sync_component::SyncComponent;
 use bevy::render::sync_world::RenderEntity;
+use horizon_field::trees::Wind;
 use horizon_field::{Place, Stamps};
 
 use super::able::Able;
 use super::air::ViewAir;
 use super::kernel::TerrainKernel;
-use super::passes::{ViewClearance, ViewGeometry, ViewPasses, ViewShade, ViewWater};
+use super::passes::{ViewClearance, ViewGeometry, ViewPasses, ViewShade, ViewTrees, ViewWater};
+use super::trees::ViewGrove;
 use super::view::{ViewBefore, ViewGround};
 use super::water::ExtractedWater;
-use super::waves::ExtractedSeas;
+use super::waves::{ExtractedSeas, MOST_SEAS};
 use crate::camera::HorizonCamera;
 use crate::world::{
-    Atmosphere, CompiledAtmosphere, CompiledStamps, CompiledTerrain, CompiledWater, Sunlight, TerrainFields,
-    WaterPlace, WorldOrigin,
+    Atmosphere, CompiledAtmosphere, CompiledStamps, CompiledTerrain, CompiledTrees, CompiledWater, Sunlight,
+    TerrainFields, Trees, WaterPlace, Woods, WorldOrigin,
 };
 
 /// The worlds, as they stand in this frame.
@@ -81,6 +84,9 @@ pub struct ExtractedTerrain {
     pub kernel: TerrainKernel,
     pub translation: Vec3,
     pub layers: RenderLayers,
+    /// What grows on it, and the wind there.
+    pub(crate) woods: Option<Arc<Woods>>,
+    pub(crate) wind: Wind,
 }
 
 /// The scene's [`Sunlight`], or else its brightest directional light.
@@ -118,6 +124,8 @@ impl SyncComponent for HorizonCamera {
         ViewShade,
         ViewClearance,
         ViewWater,
+        ViewGrove,
+        ViewTrees,
     );
 }
 
@@ -128,6 +136,7 @@ type Terrains<'w, 's> = Query<
         Entity,
         &'static CompiledTerrain,
         Option<&'static CompiledStamps>,
+        Option<&'static CompiledTrees>,
         &'static TerrainKernel,
         &'static GlobalTransform,
         &'static InheritedVisibility,
@@ -153,6 +162,7 @@ pub fn extract_world(
     suns: Extract<Suns>,
     origin: Extract<Res<WorldOrigin>>,
     settings: Extract<Res<super::cache::CacheSettings>>,
+    time: Extract<Option<Res<Time>>>,
     mut able: Local<Option<Able>>,
     device: Res<RenderDevice>,
 ) {
@@ -164,7 +174,7 @@ pub fn extract_world(
     world.settings = settings.clone();
     world.terrains.clear();
     let bare = world.bare.clone();
-    for (entity, compiled, stamps, kernel, transform, visibility, layers) in &terrains {
+    for (entity, compiled, stamps, trees, kernel, transform, visibility, layers) in &terrains {
         if visibility.get() {
             world.terrains.push(ExtractedTerrain {
                 entity,
@@ -173,6 +183,8 @@ pub fn extract_world(
                 kernel: kernel.clone(),
                 translation: transform.translation(),
                 layers: layers.cloned().unwrap_or_default(),
+                woods: trees.map(|trees| trees.woods.clone()),
+                wind: trees.map_or_else(Wind::default, |trees| wind_of(&trees.trees, time.as_deref())),
             });
         }
     }
@@ -196,6 +208,13 @@ pub fn extract_world(
         });
 }
 
+/// The wind as it blows now.
+fn wind_of(trees: &Trees, time: Option<&Time>) -> Wind {
+    let sway = trees.wind.map(f64::from);
+    let seconds = time.filter(|_| sway != [0.0; 2]).map_or(0.0, Time::elapsed_secs_f64);
+    Wind { sway, gust: (seconds / f64::from(trees.gust.max(0.1))).fract() * TAU }
+}
+
 pub fn extract_atmospheres(
     mut world: ResMut<ExtractedWorld>,
     atmospheres: Extract<Query<(&CompiledAtmosphere, &GlobalTransform, &InheritedVisibility, Option<&RenderLayers>)>>,
@@ -216,18 +235,17 @@ pub fn extract_atmospheres(
 type Waters<'w, 's> =
     Query<'w, 's, (&'static CompiledWater, Option<&'static WaterPlace>, &'static GlobalTransform, &'static InheritedVisibility, Option<&'static RenderLayers>)>;
 
-/// Seas whose waves the tiles have room for.
-const MOST_SEAS: usize = 4;
-
 /// Water is drawn only where the world is: after [`extract_world`].
 pub fn extract_waters(mut world: ResMut<ExtractedWorld>, mut seas: ResMut<ExtractedSeas>, waters: Extract<Waters>) {
+    let origin = WorldOrigin(world.origin);
     world.waters.clear();
     seas.0.clear();
     for (compiled, place, transform, visibility, layers) in &waters {
         if !visibility.get() {
             continue;
         }
-        let sea = compiled.sea.as_ref().filter(|sea| !sea.is_still()).and_then(|sea| {
+        let sea = compiled.surface.as_ref().and_then(|surface| {
+            let sea = surface.sea();
             let known = seas.0.iter().position(|other| Arc::ptr_eq(other, sea));
             let index = known.or_else(|| {
                 (seas.0.len() < MOST_SEAS).then(|| {
@@ -240,7 +258,7 @@ pub fn extract_waters(mut world: ResMut<ExtractedWorld>, mut seas: ResMut<Extrac
         world.waters.push(ExtractedWater {
             water: compiled.water.clone(),
             sea,
-            translation: place.map_or(transform.translation(), |place| WorldOrigin(world.origin).position(&place.0)),
+            translation: place.map_or(transform.translation(), |place| origin.position(&place.0)),
             layers: layers.cloned().unwrap_or_default(),
         });
     }

@@ -1,5 +1,5 @@
 //! The picture. One stage a file, in data-flow order: `extract` (from the main world), `uniforms` (as shaders see it),
-//! `cache` (the field, at the resolution that the screen can show), `air` (its tables), `view` (a camera's rays), `passes` (into the
+//! `cache` (the field, at the resolution that the screen can show), `trees` (what grows on it), `air` (its tables), `view` (a camera's rays), `passes` (into the
 //! view).
 
 pub mod able;
@@ -12,6 +12,7 @@ pub mod ready;
 #[cfg(feature = "baselines")]
 pub mod rivals;
 mod shaders;
+mod trees;
 mod truth;
 mod uniforms;
 mod view;
@@ -74,10 +75,13 @@ impl Plugin for HorizonRenderPlugin {
             .init_resource::<passes::WaterPipelines>()
             .init_resource::<water::HorizonWaters>()
             .init_resource::<waves::ExtractedSeas>()
+            .init_resource::<passes::TreePipelines>()
             .init_resource::<waves::SeaClock>()
             .init_resource::<waves::SeaFiller>()
             .init_resource::<waves::SeaPipelines>()
             .init_resource::<passes::CastPipeline>()
+            .init_resource::<passes::TreeCastPipeline>()
+            .init_resource::<trees::Groves>()
             .init_resource::<passes::ClearancePipeline>()
             .init_resource::<air::AirTables>()
             .init_resource::<air::AirPipelines>()
@@ -97,6 +101,7 @@ impl Plugin for HorizonRenderPlugin {
                     (passes::read_depth, passes::copy_depth).after(prepare_view_targets).in_set(RenderSystems::PrepareViews),
                     (
                         cache::prepare_caches,
+                        trees::prepare_groves,
                         air::prepare_airs,
                         waves::prepare_seas,
                         view::prepare_views,
@@ -104,8 +109,10 @@ impl Plugin for HorizonRenderPlugin {
                             passes::prepare_pipelines,
                             passes::prepare_geometry,
                             passes::prepare_shade,
+                            passes::prepare_trees,
                             passes::prepare_casts,
                             passes::prepare_waters,
+                            passes::prepare_tree_casts,
                         ),
                     )
                         .chain()
@@ -115,6 +122,7 @@ impl Plugin for HorizonRenderPlugin {
                         passes::bind_geometry,
                         passes::bind_shade,
                         passes::bind_waters,
+                        passes::bind_trees,
                         air::bind_airs,
                     )
                         .in_set(RenderSystems::PrepareBindGroups),

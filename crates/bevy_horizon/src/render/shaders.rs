@@ -7,7 +7,7 @@ use bevy::asset::uuid::Uuid;
 use bevy::asset::{Assets, Handle};
 use bevy::shader::Shader;
 use horizon_field::material::compile::CUTOFF;
-use horizon_field::{stamp, waves};
+use horizon_field::{stamp, trees, waves};
 use horizon_light::models::{gradient, shaders as light};
 use horizon_light::{sun, water as water_light};
 
@@ -18,12 +18,20 @@ use crate::world::SkyModel;
 const SURFACE: &str = include_str!("cache/surface.wgsl");
 const SUN_SEEN: &str = include_str!("cache/sun_seen.wgsl");
 const LOOK: &str = include_str!("passes/look.wgsl");
+const RAY: &str = include_str!("cache/ray.wgsl");
+const PIXEL_RAY: &str = include_str!("passes/pixel_ray.wgsl");
+const SOLIDS: &str = trees::WGSL;
+const GROVE: &str = include_str!("trees/grove.wgsl");
+const CANOPY: &str = include_str!("trees/canopy_light.wgsl");
+const CANOPY_PLAIN: &str = include_str!("passes/canopy_plain.wgsl");
 const SUNLIT: &str = include_str!("passes/sunlit.wgsl");
 const MOTION: &str = include_str!("passes/motion.wgsl");
 const VIEW: &str = include_str!("passes/view.wgsl");
 const AIR_VIEW: &str = include_str!("air/air_view.wgsl");
 const SKYLIGHT: &str = include_str!("passes/skylight_air.wgsl");
 const GRADIENT_AIR: &str = include_str!("passes/gradient_air.wgsl");
+const FOLIAGE: &str = "@group(0) @binding(9) var plant_foliage: texture_3d<f32>;\n\
+    @group(0) @binding(10) var plant_foliage_sampler: sampler;\n";
 const PRESENT_HDR: &str = "fn present(colour: vec4<f32>) -> vec4<f32> {\n    return colour;\n}\n";
 const DEPTH_SINGLE: &str = "@group(0) @binding(2) var depth_texture: texture_depth_2d;\n\
     fn depth_samples() -> i32 {\n    return 1;\n}\nfn depth_at(at: vec2<i32>, sample_index: i32) -> f32 {\n    return textureLoad(depth_texture, at, 0);\n}\n";
@@ -46,12 +54,16 @@ pub enum Source {
     Geometry { scaled: bool, beside: Beside },
     /// A debug view.
     Heat { ldr: bool },
-    /// Light on the ground, or on a G-buffer; under air that makes it.
-    Shade { deferred: bool, multisampled: bool, air: bool },
+    /// Light on the ground, or on a G-buffer; under air that makes it; under plants.
+    Shade { deferred: bool, multisampled: bool, air: bool, trees: bool },
+    /// Plants, lit as the ground is.
+    Trees { multisampled: bool, air: bool },
     /// The ground in shadow maps; with holes in it.
     Cast { holes: bool },
     /// Water; with waves, among ground.
     Water { sky: WaterSky, multisampled: bool, waves: bool, ground: bool },
+    /// Plants in shadow maps.
+    CastTrees,
     /// Waves at a time.
     SeaTransform,
     /// Waves over the plane.
@@ -97,7 +109,8 @@ const EITHER: [bool; 2] = [false, true];
 impl Source {
     /// All of them.
     fn all() -> Vec<Self> {
-        let mut all = vec![Self::Pyramid, Self::Light, Self::Clearance, Self::Transmittance, Self::Isotropic];
+        let mut all =
+            vec![Self::Pyramid, Self::Light, Self::Clearance, Self::Transmittance, Self::Isotropic, Self::CastTrees];
         all.extend([Self::SeaTransform, Self::SeaSurface, Self::SeaMeans]);
         all.extend(EITHER.map(|holes| Self::Cast { holes }));
         all.extend(EITHER.map(|first| Self::Moments { first }));
@@ -107,9 +120,11 @@ impl Source {
                 [Beside::Nothing, Beside::Motion, Beside::Surfaces].map(|beside| Self::Geometry { scaled: a, beside }),
             );
             for b in EITHER {
-                all.push(Self::Shade { deferred: false, multisampled: a, air: b });
+                all.push(Self::Trees { multisampled: a, air: b });
+                all.extend(EITHER.map(|trees| Self::Shade { deferred: false, multisampled: a, air: b, trees }));
+                all.push(Self::Shade { deferred: true, multisampled: false, air: a, trees: b });
             }
-            all.extend([Self::Heat { ldr: a }, Self::Shade { deferred: true, multisampled: false, air: a }]);
+            all.push(Self::Heat { ldr: a });
         }
         for sky in [WaterSky::Nothing, WaterSky::Gradient, WaterSky::Air] {
             for bits in 0..8 {
@@ -139,12 +154,14 @@ impl Source {
             Self::Cast { holes } => 0x0c + bits(&[holes]),
             Self::Geometry { scaled, beside } => 0x0e + 3 * bits(&[scaled]) + beside as u128,
             Self::Heat { ldr } => 0x14 + bits(&[ldr]),
-            Self::Shade { deferred, multisampled, air } => 0x18 + bits(&[deferred, multisampled, air]),
+            Self::CastTrees => 0x16,
+            Self::Trees { multisampled, air } => 0x18 + bits(&[multisampled, air]),
             Self::Gradient { ldr, multisampled } => 0x20 + bits(&[ldr, multisampled]),
             Self::Air { model, ldr, multisampled } => 0x30 + 4 * model as u128 + bits(&[ldr, multisampled]),
             Self::Water { sky, multisampled, waves, ground } => {
-                0x40 + 8 * sky as u128 + bits(&[multisampled, waves, ground])
+                0x60 + 8 * sky as u128 + bits(&[multisampled, waves, ground])
             }
+            Self::Shade { deferred, multisampled, air, trees } => 0x40 + bits(&[deferred, multisampled, air, trees]),
             Self::SeaTransform => 0x58,
             Self::SeaSurface => 0x59,
             Self::SeaMeans => 0x5a,
@@ -164,6 +181,8 @@ impl Source {
             Self::Clearance => "clearance",
             Self::Cast { holes: false } => "cast",
             Self::Cast { holes: true } => "cast_holes",
+            Self::CastTrees => "cast_trees",
+            Self::Trees { .. } => "trees",
             Self::Geometry { scaled: false, beside: Beside::Nothing } => "geometry",
             Self::Geometry { scaled: false, beside: Beside::Motion } => "geometry_motion",
             Self::Geometry { scaled: false, beside: Beside::Surfaces } => "geometry_surfaces",
@@ -198,9 +217,11 @@ impl Source {
             Self::Cast { holes: true } => {
                 [&surface(), LOOK, include_str!("passes/cast.wgsl"), include_str!("passes/cast_holes.wgsl")].join("\n")
             }
+            Self::CastTrees => [FOLIAGE, SOLIDS, GROVE, include_str!("passes/cast_trees.wgsl")].join("\n"),
             Self::Geometry { scaled, beside } => geometry(scaled, beside),
             Self::Heat { ldr } => heat(ldr),
-            Self::Shade { deferred, multisampled, air } => shade(deferred, multisampled, air),
+            Self::Shade { deferred, multisampled, air, trees } => shade(deferred, multisampled, air, trees),
+            Self::Trees { multisampled, air } => plants(multisampled, air),
             Self::Gradient { ldr, multisampled } => {
                 let parts = [gradient::WGSL, GRADIENT_AIR, include_str!("passes/sky_gradient.wgsl")];
                 [&[sky_common(ldr, multisampled).as_str()], &parts[..]].concat().join("\n")
@@ -277,6 +298,8 @@ fn rays(counted: bool) -> String {
     [
         if counted { COUNTED } else { UNCOUNTED },
         VIEW,
+        RAY,
+        PIXEL_RAY,
         &surface(),
         LOOK,
         include_str!("cache/march.wgsl"),
@@ -301,27 +324,45 @@ fn heat(ldr: bool) -> String {
 }
 
 /// Bevy's groups 0 and 1 come first: ours is 2.
-fn shade(deferred: bool, multisampled: bool, air: bool) -> String {
-    let daylight = if air {
+fn behind_bevy(parts: &[&str]) -> String {
+    parts.join("\n").replace("@group(0)", "@group(2)")
+}
+
+fn daylight(air: bool) -> String {
+    if air {
         let parts = [light::BASE, light::TRANSMITTANCE, light::HARMONICS, sun::WGSL, AIR_VIEW];
         [&parts[..], &[include_str!("passes/daylight_air.wgsl"), SKYLIGHT]].concat().join("\n")
     } else {
         include_str!("passes/daylight_plain.wgsl").to_owned()
-    };
+    }
+}
+
+/// What lights surfaces.
+fn lights(multisampled: bool, air: bool, trees: bool) -> String {
     let depth = if multisampled { DEPTH_MULTISAMPLED } else { DEPTH_SINGLE };
+    let canopy = if trees { [SOLIDS, GROVE, CANOPY].join("\n") } else { CANOPY_PLAIN.to_owned() };
+    let bindings = include_str!("passes/shade_bindings.wgsl");
+    let shade = include_str!("passes/shade.wgsl");
+    [bindings, VIEW, &surface(), SUN_SEEN, LOOK, SUNLIT, depth, &daylight(air), &canopy, shade].join("\n")
+}
+
+fn shade(deferred: bool, multisampled: bool, air: bool, trees: bool) -> String {
     let entry =
         if deferred { include_str!("passes/shade_deferred.wgsl") } else { include_str!("passes/shade_forward.wgsl") };
-    let shade = include_str!("passes/shade.wgsl");
-    let bindings = include_str!("passes/shade_bindings.wgsl");
-    let surface = surface();
-    let parts = [bindings, VIEW, &surface, SUN_SEEN, LOOK, SUNLIT, depth, &daylight, shade, entry];
-    parts.join("\n").replace("@group(0)", "@group(2)")
+    // The solids name the table of foliage, which the light of crowns does not ask.
+    let foliage = if trees { FOLIAGE } else { "" };
+    behind_bevy(&[foliage, &lights(multisampled, air, trees), entry])
+}
+
+fn plants(multisampled: bool, air: bool) -> String {
+    behind_bevy(&[FOLIAGE, &lights(multisampled, air, true), RAY, PIXEL_RAY, include_str!("passes/trees.wgsl")])
 }
 
 /// Bevy's group 0 comes first: ours is 1.
 fn water(sky: WaterSky, multisampled: bool, waves: bool, ground: bool) -> String {
     let depth = if multisampled { DEPTH_MULTISAMPLED } else { DEPTH_SINGLE };
     let mut parts = vec![VIEW, depth, water_light::WGSL];
+    let surface = surface();
     let grid = format!("const WAVE_GRID: f32 = {}.0;\n", horizon_field::waves::GRID);
     parts.extend([grid.as_str(), include_str!("passes/water_bodies.wgsl")]);
     parts.push(if waves { include_str!("passes/water_waves.wgsl") } else { include_str!("passes/water_still.wgsl") });
@@ -337,7 +378,7 @@ fn water(sky: WaterSky, multisampled: bool, waves: bool, ground: bool) -> String
         }
     }
     if ground {
-        parts.extend([UNCOUNTED, SURFACE, SUN_SEEN, LOOK, SUNLIT, include_str!("cache/march.wgsl")]);
+        parts.extend([UNCOUNTED, RAY, &surface, SUN_SEEN, LOOK, SUNLIT, include_str!("cache/march.wgsl")]);
         parts.push(include_str!("passes/water_ground.wgsl"));
     } else {
         parts.push(include_str!("passes/water_no_ground.wgsl"));
@@ -368,8 +409,16 @@ fn air_model(model: SkyModel) -> String {
 /// shading languages. `kernel` is a terrain's, from [`CompiledMaterial::kernel`](horizon_field::material::CompiledMaterial::kernel).
 pub fn shader_sources(kernel: &str) -> Vec<(&'static str, String)> {
     let alone = |source: &Source| {
-        use Source::{Air, Gradient, Heat, Shade, Water};
-        !matches!(source, Shade { .. } | Water { .. } | Heat { ldr: true } | Gradient { ldr: true, .. } | Air { ldr: true, .. })
+        use Source::{Air, Gradient, Heat, Shade, Trees, Water};
+        !matches!(
+            source,
+            Shade { .. }
+                | Trees { .. }
+                | Water { .. }
+                | Heat { ldr: true }
+                | Gradient { ldr: true, .. }
+                | Air { ldr: true, .. }
+        )
     };
     let own = Source::all().into_iter().filter(alone).map(|source| (source.name(), source.text()));
     [("fill", fill_source(kernel))].into_iter().chain(own).collect()

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use bevy::camera::visibility::RenderLayers;
-use bevy::math::{DVec3, Vec2, Vec3};
+use bevy::math::Vec3Swizzles;
 use bevy::prelude::*;
 use bevy::render::render_resource::{BindingResource, DynamicUniformBuffer, ShaderType};
 use bevy::render::renderer::{RenderDevice, RenderQueue};

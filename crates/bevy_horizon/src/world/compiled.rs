@@ -9,6 +9,7 @@ use horizon_field::{Compiled, FieldError};
 use thiserror::Error;
 
 use super::{CompiledStamps, ParamError, Terrain, WaterError};
+use super::{CompiledStamps, ParamError, Terrain, TreesError};
 
 /// What [`Terrain`] became: the compiled height field and the compiled material. Shared with queries and renderer.
 /// After a bad edit the last good one stays.
@@ -63,6 +64,9 @@ pub enum TerrainError {
     /// A body of water makes no sense.
     #[error(transparent)]
     Water(#[from] WaterError),
+    /// Plants make no sense.
+    #[error(transparent)]
+    Trees(#[from] TreesError),
 }
 
 /// A terrain was rejected; what was there before stays.

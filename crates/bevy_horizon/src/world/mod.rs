@@ -11,14 +11,15 @@ mod stamp;
 mod sun;
 mod sunlight;
 mod terrain;
+mod trees;
 mod water;
 mod water_time;
+mod woods;
 
 pub use air_light::{AtmosphereRejected, CompiledAtmosphere};
 pub(crate) use air_light::{brighten, compile_atmospheres, forget_atmosphere};
 pub(crate) use atmosphere::check_atmosphere;
 pub use atmosphere::{Atmosphere, SkyGradient, SkyModel};
-#[cfg(feature = "render")]
 pub(crate) use compiled::TerrainFields;
 pub use compiled::{CompiledTerrain, TerrainError, TerrainRejected};
 pub(crate) use compiled::{compile_terrain, forget_terrain};
@@ -40,5 +41,9 @@ pub use sunlight::{Sunlight, TimeOfDay, towards_sun};
 pub use terrain::{HeightImages, Terrain};
 pub use water::{CompiledWater, Water, WaterDisc, WaterError, WaterOutline, WaterPlace, WaterRectangle, WaterRejected};
 pub(crate) use water::{compile_waters, forget_water};
+pub use trees::{CompiledTrees, Felled, Trees, TreesError, TreesRejected};
+pub(crate) use trees::{compile_trees, forget_grown, forget_trees};
+#[cfg(feature = "render")]
+pub(crate) use woods::{Woods, WoodsChange};
 pub use water_time::WaterTime;
 pub(crate) use water_time::advance_water;

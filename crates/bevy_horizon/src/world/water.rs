@@ -5,7 +5,7 @@ use std::sync::Arc;
 use bevy::prelude::*;
 use horizon_field::Place;
 use horizon_field::field::Param;
-use horizon_field::waves::{Sea, Waves, WavesError};
+use horizon_field::waves::{Sea, SeaSurface, Waves, WavesError};
 use horizon_light::water::WaterOptics;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -151,8 +151,8 @@ impl Water {
 #[derive(Component, Clone, Debug)]
 pub struct CompiledWater {
     pub(crate) water: Arc<Water>,
-    /// `None` where the surface is still.
-    pub(crate) sea: Option<Arc<Sea>>,
+    /// Its waves; `None` where it is still.
+    pub(crate) surface: Option<Arc<SeaSurface>>,
 }
 
 /// A body of water was rejected; what was there before stays.
@@ -174,14 +174,15 @@ pub(crate) fn compile_waters(
     let mut fresh: Vec<CompiledWater> = Vec::new();
     for (entity, water) in &changed {
         let same = known.iter().chain(&fresh).find(|other| other.water.waves == water.waves);
-        let sea = match same {
-            _ if water.waves == Waves::Still => Ok(None),
-            Some(other) => Ok(other.sea.clone()),
-            None => Sea::new(&water.waves).map(|sea| Some(Arc::new(sea))).map_err(WaterError::from),
+        let surface = match same {
+            Some(other) => Ok(other.surface.clone()),
+            None => Sea::new(&water.waves)
+                .map(|sea| (!sea.is_still()).then(|| Arc::new(SeaSurface::new(Arc::new(sea)))))
+                .map_err(WaterError::from),
         };
-        match water.check("water").and(sea) {
-            Ok(sea) => {
-                let compiled = CompiledWater { water: Arc::new(water.clone()), sea };
+        match water.check("water").and(surface) {
+            Ok(surface) => {
+                let compiled = CompiledWater { water: Arc::new(water.clone()), surface };
                 fresh.push(compiled.clone());
                 commands.entity(entity).insert(compiled);
             }

@@ -7,6 +7,7 @@ mod bounds;
 mod corner;
 mod gradient;
 mod lanes;
+mod periodic;
 mod simplex;
 mod value;
 mod worley;
@@ -18,6 +19,7 @@ use serde::{Deserialize, Serialize};
 
 pub use bounds::BasisBounds;
 pub(crate) use lanes::{HighWords, Lanes, high_hashes};
+pub(crate) use periodic::periodic;
 
 use axes::{Axes, Cell};
 

@@ -1,12 +1,6 @@
 // A ray through the drawn surface: climb and descend the pyramid of maxima (maximum mipmaps, Tevs et al. 2008), find
 // the patch, solve it. Where a hole takes the ground away, the ray goes on under it, and all is upside down until it comes out. Needs
-// view.wgsl, surface.wgsl, look.wgsl, and HEAT, which says whether to count.
-
-struct Ray {
-    // From the clipmap's centre; y above the datum.
-    origin: vec3<f32>,
-    direction: vec3<f32>,
-}
+// ray.wgsl, view.wgsl, surface.wgsl, look.wgsl, and HEAT, which says whether to count.
 
 struct Found {
     // Distance along the ray; negative where nothing was hit.

@@ -26,8 +26,9 @@ pub(crate) use self::grain::grain;
 pub(crate) use self::pipelines::CachePipelines;
 use super::air::ViewAir;
 use super::extract::{ExtractedAtmosphere, ExtractedHorizonCamera, ExtractedTerrain, ExtractedWorld};
-use super::passes::{ClearancePipeline, ViewClearance, ViewGeometry, ViewPasses, ViewShade};
+use super::passes::{ClearancePipeline, ViewClearance, ViewGeometry, ViewPasses, ViewShade, ViewTrees, ViewWater};
 use super::ready::Progress;
+use super::trees::ViewGrove;
 use super::uniforms::{GradientUniform, SunUniform};
 use super::view::{ViewBefore, ViewGround, ViewSky};
 use crate::world::{SkyModel, TerrainFields};
@@ -127,6 +128,8 @@ pub(crate) fn prepare_caches(
                 ViewShade,
                 ViewClearance,
                 ViewWater,
+                ViewGrove,
+                ViewTrees,
             )>();
             continue;
         }
@@ -235,6 +238,16 @@ impl Cache {
         let [x, _, z] = eye.minus(&self.centre);
         let y = eye.cell[1] as f64 * horizon_field::CELL + eye.offset[1];
         Vec3::new(x as f32, y as f32, z as f32)
+    }
+
+    /// The terrain that it is of.
+    pub fn terrain(&self) -> Entity {
+        self.terrain
+    }
+
+    /// What the passes' coordinates are relative to, in x and z.
+    pub fn centre(&self) -> &Place {
+        &self.centre
     }
 
     /// The layers of its terrain.

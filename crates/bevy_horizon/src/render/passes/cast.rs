@@ -28,6 +28,9 @@ use super::super::view::ViewGround;
 pub use self::patches::{PUSH, QUADS};
 
 mod patches;
+mod trees;
+
+pub use self::trees::{TreeCastPipeline, draw_trees_in_cascades, draw_trees_in_shared, prepare_tree_casts};
 
 /// `Light` of `cast.wgsl`.
 #[derive(Clone, Copy, Debug, ShaderType)]

@@ -8,6 +8,7 @@ mod geometry;
 mod pipelines;
 mod shade;
 mod target;
+mod trees;
 mod water;
 
 use bevy::app::SubApp;
@@ -31,13 +32,16 @@ use bevy::render::renderer::RenderDevice;
 use bevy::render::texture::{FallbackImage, GpuImage};
 use bevy::render::view::{ExtractedView, ViewDepthTexture, ViewUniforms};
 
-pub use self::cast::{CastPipeline, PUSH as CAST_PUSH, QUADS as CAST_QUADS, prepare_casts};
+pub use self::cast::{
+    CastPipeline, PUSH as CAST_PUSH, QUADS as CAST_QUADS, TreeCastPipeline, prepare_casts, prepare_tree_casts,
+};
 pub use self::clearance::{ClearancePipeline, Table, ViewClearance};
 pub use self::geometry::{GeometryPipelines, ViewGeometry, bind_geometry, prepare_geometry};
 pub use self::pipelines::PassPipelines;
 use self::pipelines::{Pass, PassKey, Variant};
 pub use self::shade::{ShadePipelines, ViewShade, bind_shade, prepare_shade};
 pub use self::water::{ViewWater, WaterPipelines, bind_waters, copy_depth, prepare_waters};
+pub use self::trees::{TreePipelines, ViewTrees, bind_trees, prepare_trees};
 use super::air::{AirTables, ViewAir};
 use super::cache::Caches;
 use super::extract::ExtractedHorizonCamera;
@@ -77,9 +81,19 @@ pub fn add_ground(render_app: &mut SubApp) {
         Core3d,
         (
             geometry::draw_geometry.after(early_downsample_depth).before(late_prepass).in_set(Core3dSystems::Prepass),
-            cast::draw_cascades.after(per_view_shadow_pass::<LATE_SHADOW_PASS>).before(Core3dSystems::MainPass),
-            cast::draw_shared.after(shared_shadow_pass::<LATE_SHADOW_PASS>).before(Core3dSystems::MainPass),
-            (shade::draw_shade.before(screen_space_reflections), draw::draw_heat.after(screen_space_reflections))
+            (cast::draw_cascades, cast::draw_trees_in_cascades)
+                .chain()
+                .after(per_view_shadow_pass::<LATE_SHADOW_PASS>)
+                .before(Core3dSystems::MainPass),
+            (cast::draw_shared, cast::draw_trees_in_shared)
+                .chain()
+                .after(shared_shadow_pass::<LATE_SHADOW_PASS>)
+                .before(Core3dSystems::MainPass),
+            (
+                shade::draw_shade.before(screen_space_reflections),
+                trees::draw_trees.after(screen_space_reflections),
+                draw::draw_heat,
+            )
                 .chain()
                 .before(main_opaque_pass_3d)
                 .in_set(Core3dSystems::MainPass),
@@ -100,10 +114,11 @@ pub fn add_sky(render_app: &mut SubApp) {
     render_app.add_systems(Core3d, pass.in_set(Core3dSystems::MainPass));
 }
 
-/// The sky reads the view's depth: its texture must allow it. This is the renderer's copy of the component, not the game's.
+/// The sky reads the view's depth, and plants take a copy of it: its texture must allow both. This is the renderer's copy of the component, not the game's.
 pub fn read_depth(mut views: Query<&mut Camera3d, With<ExtractedHorizonCamera>>) {
     for mut camera in &mut views {
-        let usages = TextureUsages::from(camera.depth_texture_usages) | TextureUsages::TEXTURE_BINDING;
+        let usages = TextureUsages::from(camera.depth_texture_usages);
+        let usages = usages | TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;
         camera.depth_texture_usages = usages.into();
     }
 }

@@ -11,6 +11,7 @@ use bevy::prelude::*;
 use bevy::render::diagnostic::RecordDiagnostics;
 use bevy::render::render_resource::binding_types::{
     storage_buffer_read_only_sized, texture_depth_2d, texture_depth_2d_multisampled, uniform_buffer,
+    uniform_buffer_sized,
 };
 use bevy::render::render_resource::{
     BindGroup, BindGroupLayoutDescriptor, CachedRenderPipelineId, DynamicBindGroupEntries,
@@ -25,6 +26,7 @@ use super::super::air::AirTables;
 use super::super::cache::Caches;
 use super::super::extract::ExtractedHorizonCamera;
 use super::super::shaders::Source;
+use super::super::trees::{GroveUniform, Groves, ViewGrove};
 use super::super::uniforms::{AirUniform, ClipmapUniform, HorizonViewUniform};
 use super::super::view::{HorizonViews, ViewGround, ViewSky};
 use super::target::DrawnTarget;
@@ -37,6 +39,8 @@ struct Variant {
     multisampled: bool,
     /// Whether the air has tables.
     air: bool,
+    /// Whether plants stand in the light.
+    trees: bool,
 }
 
 impl Variant {
@@ -52,6 +56,13 @@ impl Variant {
                 (5, uniform_buffer::<HorizonViewUniform>(true)),
             ),
         );
+        if self.trees {
+            entries = entries.extend_with_indices((
+                (6, uniform_buffer::<GroveUniform>(false)),
+                (7, read()),
+                (8, uniform_buffer_sized(false, None)),
+            ));
+        }
         if self.air {
             entries = entries.extend_with_indices(((13, uniform_buffer::<AirUniform>(true)), (14, read())));
         }
@@ -76,8 +87,8 @@ impl ShadePipelines {
         variant: Variant,
     ) -> CachedRenderPipelineId {
         *self.made.entry((key, variant)).or_insert_with(|| {
-            let Variant { deferred, multisampled, air } = variant;
-            let shader = Source::Shade { deferred, multisampled, air }.handle();
+            let Variant { deferred, multisampled, air, trees } = variant;
+            let shader = Source::Shade { deferred, multisampled, air, trees }.handle();
             // Bevy's own pipeline, with our text: its definitions and layouts follow the view's features without our knowing them.
             let mut descriptor = bevy.specialize(key);
             descriptor.label = Some("horizon_shade".into());
@@ -118,6 +129,7 @@ type Views<'w, 's> = Query<
     (
         Entity,
         &'static ViewGround,
+        Option<&'static ViewGrove>,
         &'static ExtractedView,
         &'static ExtractedHorizonCamera,
         &'static Msaa,
@@ -134,7 +146,7 @@ pub fn prepare_shade(
     keys: Res<ViewKeyCache>,
     views: Views,
 ) {
-    for (entity, ground, view, camera, msaa, deferred) in &views {
+    for (entity, ground, grove, view, camera, msaa, deferred) in &views {
         let shown = deferred || camera.camera.debug == DebugView::None;
         let key = keys.get(&view.retained_view_entity).filter(|_| ground.cache.is_some() && shown);
         if key.is_some() && bevy.is_none() && !pipelines.said {
@@ -146,7 +158,8 @@ pub fn prepare_shade(
             continue;
         };
         let air = matches!(ground.sky, Some(ViewSky::Air { .. }));
-        let variant = Variant { deferred, multisampled: msaa.samples() > 1, air };
+        let trees = grove.is_some_and(|grove| grove.grown);
+        let variant = Variant { deferred, multisampled: msaa.samples() > 1, air, trees };
         let pipeline = pipelines.get(&cache, bevy, key, variant);
         if deferred && cache.get_render_pipeline(pipeline).is_some() {
             // Bevy's own pass, which it asks for in each frame, would light the same once more. Until ours is there, it does.
@@ -157,14 +170,15 @@ pub fn prepare_shade(
 }
 
 pub fn bind_shade(
-    mut views: Query<(&mut ViewShade, &ViewGround, &ViewDepthTexture)>,
+    mut views: Query<(&mut ViewShade, &ViewGround, Option<&ViewGrove>, &ViewDepthTexture)>,
     uniforms: Res<HorizonViews>,
     caches: Res<Caches>,
+    groves: Res<Groves>,
     airs: Res<AirTables>,
     cache: Res<PipelineCache>,
     device: Res<RenderDevice>,
 ) {
-    for (mut shade, ground, depth) in &mut views {
+    for (mut shade, ground, grove, depth) in &mut views {
         let Some(buffers) = ground.cache.and_then(|index| caches.0.get(index)).map(|cache| &cache.buffers) else {
             continue;
         };
@@ -177,6 +191,15 @@ pub fn bind_shade(
             (5, view),
         ))
         .to_vec();
+        if shade.variant.trees {
+            let Some(seen) = grove else { continue };
+            let Some(grove) = groves.0.get(seen.grove) else { continue };
+            entries.extend_from_slice(&DynamicBindGroupEntries::new_with_indices((
+                (6, seen.window.as_entire_binding()),
+                (7, grove.tiles.as_entire_binding()),
+                (8, grove.forest.as_entire_binding()),
+            )));
+        }
         if let Some(ViewSky::Air { table, .. }) = ground.sky {
             let tables = uniforms.airs.binding().zip(airs.buffers(table));
             let Some((uniform, [transmittances, _])) = tables else { continue };

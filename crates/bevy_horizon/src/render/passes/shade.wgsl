@@ -1,6 +1,7 @@
 // Light on ground and meshes, by Bevy's own functions, with what the world knows better put in its place: how much of the sun the
-// ground hides, beyond every cascade and with its true penumbra; the sun's colour at the point itself; and the sky's light by the
-// direction that a surface faces. Needs view.wgsl, surface.wgsl, look.wgsl, sunlit.wgsl and a daylight.
+// ground hides, beyond every cascade and with its true penumbra; what crowns of plants leave of it; the sun's colour at the point
+// itself; and the sky's light by the direction that a surface faces. Needs view.wgsl, surface.wgsl, look.wgsl, sunlit.wgsl, a daylight
+// and a canopy.
 #import bevy_pbr::{
     ambient as bevy_ambient,
     lighting as bevy_lighting,
@@ -86,18 +87,25 @@ fn lighting_input(pbr: bevy_types::PbrInput) -> bevy_lighting::LightingInput {
     return input;
 }
 
-// How much of the sun Bevy's shadow map and contact shadows leave to a point over the surface.
+// How much of the sun Bevy's shadow map leaves to a point over the surface.
+fn sun_in_map(pbr: bevy_types::PbrInput, i: u32, above: f32) -> f32 {
+    let flags = bevy_bindings::lights.directional_lights[i].flags;
+    let receives = (pbr.flags & bevy_mesh_types::MESH_FLAGS_SHADOW_RECEIVER_BIT) != 0u;
+    if (!receives || (flags & bevy_view_types::DIRECTIONAL_LIGHT_FLAGS_SHADOWS_ENABLED_BIT) == 0u) {
+        return 1.0;
+    }
+    let view_z = dot(view.back, pbr.world_position.xyz - bevy_bindings::view.world_position);
+    let point = pbr.world_position + vec4<f32>(0.0, above, 0.0, 0.0);
+    return bevy_shadows::fetch_directional_shadow(i, point, pbr.world_normal, view_z, pbr.frag_coord.xy);
+}
+
+// How much of it the map and contact shadows leave.
 fn sun_in_cascades(pbr: bevy_types::PbrInput, i: u32, above: f32) -> f32 {
     let flags = bevy_bindings::lights.directional_lights[i].flags;
     if ((pbr.flags & bevy_mesh_types::MESH_FLAGS_SHADOW_RECEIVER_BIT) == 0u) {
         return 1.0;
     }
-    var left = 1.0;
-    if ((flags & bevy_view_types::DIRECTIONAL_LIGHT_FLAGS_SHADOWS_ENABLED_BIT) != 0u) {
-        let view_z = dot(view.back, pbr.world_position.xyz - bevy_bindings::view.world_position);
-        let point = pbr.world_position + vec4<f32>(0.0, above, 0.0, 0.0);
-        left = bevy_shadows::fetch_directional_shadow(i, point, pbr.world_normal, view_z, pbr.frag_coord.xy);
-    }
+    var left = sun_in_map(pbr, i, above);
 #ifdef CONTACT_SHADOWS
 #ifdef DEPTH_PREPASS
     let contact_steps = bevy_bindings::contact_shadows_settings.linear_steps;
@@ -110,49 +118,56 @@ fn sun_in_cascades(pbr: bevy_types::PbrInput, i: u32, above: f32) -> f32 {
     return left;
 }
 
-// What Bevy's light lacks, or has too much of. Bevy adds each light up by itself, so that the sun's part can be taken out and put in
+// What Bevy's sun lacks, or has too much of. Bevy adds each light up by itself, so that the sun's part can be taken out and put in
 // again as it should be.
-fn mended(pbr: bevy_types::PbrInput, p: vec3<f32>) -> vec3<f32> {
-    var light = vec3<f32>(0.0);
-    var input = lighting_input(pbr);
+fn mended_sun(pbr: bevy_types::PbrInput, p: vec3<f32>) -> vec3<f32> {
     let i = sun_index();
-    if (i < bevy_bindings::lights.n_directional_lights && dot(pbr.N, view.sun_towards) > 0.0) {
-        let bevy_sun = bevy_bindings::lights.directional_lights[i].color.rgb;
-        let receives = (pbr.flags & bevy_mesh_types::MESH_FLAGS_SHADOW_RECEIVER_BIT) != 0u;
-        let seen = select(vec2<f32>(1.0, 0.0), sun_over_ground(p), receives);
-        let own = daylight_is_own();
-        if (own || seen.x < 1.0) {
-            let left = sun_in_cascades(pbr, i, 0.0);
-            // The ground's edge in the map is hard. In its penumbra the map is asked above that edge, and only meshes hide more.
-            var over = left;
-            if (seen.y > 0.0) {
-                over = sun_in_cascades(pbr, i, 2.0 * seen.y);
-            }
-            let wanted = select(bevy_sun, sunlight_at(p), own) * min(over, seen.x) - bevy_sun * left;
-            if (any(abs(wanted) > vec3<f32>(0.0))) {
-                var response: vec3<f32>;
-                if (all(bevy_sun > vec3<f32>(1e-3))) {
-                    response = bevy_lighting::directional_light(i, &input, true) / bevy_sun;
-                } else {
-                    // A sun that is gone at the camera, and still on the peaks.
-                    var to_sun = bevy_lighting::derive_lighting_input(pbr.N, pbr.V, view.sun_towards);
-                    response = (input.diffuse_color * bevy_lighting::Fd_Burley(&input, &to_sun)
-                        + bevy_lighting::specular(&input, &to_sun, input.layers[0].roughness, 1.0)) * to_sun.NdotL;
-                }
-                light += response * wanted;
-            }
-        }
+    if (i >= bevy_bindings::lights.n_directional_lights || dot(pbr.N, view.sun_towards) <= 0.0) {
+        return vec3<f32>(0.0);
     }
-    let ambient_colour = bevy_bindings::lights.ambient_color.rgb;
-    if (daylight_is_own() && all(ambient_colour > vec3<f32>(0.0))) {
-        let f0 = bevy_functions::calculate_F0(pbr.material.base_color.rgb, pbr.material.metallic, pbr.material.reflectance);
-        let flat_light = bevy_ambient::ambient_light(pbr.world_position, pbr.N, pbr.V, input.layers[0].NdotV, input.diffuse_color,
-            f0, pbr.material.perceptual_roughness, pbr.diffuse_occlusion);
-        // As much as Bevy has it, by the direction that it comes from: `shine` has the sky's for level ground.
-        let level_light = max(skylight_on(vec3<f32>(0.0, 1.0, 0.0)), vec3<f32>(1e-20));
-        light += flat_light * (skylight_on(pbr.N) / level_light - vec3<f32>(1.0));
+    var input = lighting_input(pbr);
+    let bevy_sun = bevy_bindings::lights.directional_lights[i].color.rgb;
+    let receives = (pbr.flags & bevy_mesh_types::MESH_FLAGS_SHADOW_RECEIVER_BIT) != 0u;
+    let seen = select(vec2<f32>(1.0, 0.0), sun_over_ground(p), receives);
+    var through = 1.0;
+    if (receives && view.self_shadow == 1u && seen.x > 0.0) {
+        through = canopy_transmittance(p, view.sun_towards);
     }
-    return light;
+    let own = daylight_is_own();
+    if (!own && seen.x >= 1.0 && through >= 1.0) {
+        return vec3<f32>(0.0);
+    }
+    let left = sun_in_cascades(pbr, i, 0.0);
+    // The ground's edge in the map is hard. In its penumbra the map is asked above that edge, and only meshes hide more.
+    var over = left;
+    if (seen.y > 0.0) {
+        over = sun_in_cascades(pbr, i, 2.0 * seen.y);
+    }
+    let wanted = select(bevy_sun, sunlight_at(p), own) * min(min(over, seen.x), through) - bevy_sun * left;
+    if (all(abs(wanted) <= vec3<f32>(0.0))) {
+        return vec3<f32>(0.0);
+    }
+    if (all(bevy_sun > vec3<f32>(1e-3))) {
+        return bevy_lighting::directional_light(i, &input, true) / bevy_sun * wanted;
+    }
+    // A sun that is gone at the camera, and still on the peaks.
+    var to_sun = bevy_lighting::derive_lighting_input(pbr.N, pbr.V, view.sun_towards);
+    return (input.diffuse_color * bevy_lighting::Fd_Burley(&input, &to_sun)
+        + bevy_lighting::specular(&input, &to_sun, input.layers[0].roughness, 1.0)) * to_sun.NdotL * wanted;
+}
+
+// What Bevy's ambient light lacks: the direction that the sky's light comes from.
+fn mended_sky(pbr: bevy_types::PbrInput) -> vec3<f32> {
+    if (!daylight_is_own() || any(bevy_bindings::lights.ambient_color.rgb <= vec3<f32>(0.0))) {
+        return vec3<f32>(0.0);
+    }
+    let input = lighting_input(pbr);
+    let f0 = bevy_functions::calculate_F0(pbr.material.base_color.rgb, pbr.material.metallic, pbr.material.reflectance);
+    let flat_light = bevy_ambient::ambient_light(pbr.world_position, pbr.N, pbr.V, input.layers[0].NdotV, input.diffuse_color,
+        f0, pbr.material.perceptual_roughness, pbr.diffuse_occlusion);
+    // As much as Bevy has it, by the direction that it comes from: `shine` has the sky's for level ground.
+    let level_light = max(skylight_on(vec3<f32>(0.0, 1.0, 0.0)), vec3<f32>(1e-20));
+    return flat_light * (skylight_on(pbr.N) / level_light - vec3<f32>(1.0));
 }
 
 // A lit surface, ready for its target.
@@ -166,7 +181,9 @@ fn lit(surface: bevy_types::PbrInput, p: vec3<f32>, position: vec4<f32>) -> vec4
     let n_v = max(dot(pbr.N, pbr.V), 0.0001);
     pbr.specular_occlusion = saturate(pow(n_v + open, exp2(-16.0 * rough - 1.0)) - 1.0 + open);
 #endif
+    pbr.diffuse_occlusion *= canopy_open(p);
     var colour = bevy_functions::apply_pbr_lighting(pbr);
-    colour = vec4<f32>(max(colour.rgb + bevy_bindings::view.exposure * mended(pbr, p), vec3<f32>(0.0)), colour.a);
+    let mended = mended_sun(pbr, p) + mended_sky(pbr);
+    colour = vec4<f32>(max(colour.rgb + bevy_bindings::view.exposure * mended, vec3<f32>(0.0)), colour.a);
     return bevy_functions::main_pass_post_lighting_processing(pbr, colour);
 }

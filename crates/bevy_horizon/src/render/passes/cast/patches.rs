@@ -72,7 +72,7 @@ impl LightView {
     }
 
     /// Whether a box may be seen in the map, or cast into it from before its near plane.
-    fn sees(&self, low: Vec3, high: Vec3) -> bool {
+    pub fn sees(&self, low: Vec3, high: Vec3) -> bool {
         if !self.is_sun() {
             let place = self.place.truncate();
             if place.distance_squared(place.clamp(low, high)) > self.range * self.range {
