@@ -372,7 +372,7 @@ fn water(sky: WaterSky, multisampled: bool, waves: bool, ground: bool) -> String
             parts.extend([gradient::WGSL, GRADIENT_AIR, include_str!("passes/water_sky_gradient.wgsl")]);
         }
         WaterSky::Air => {
-            let tables = [light::SKY_VIEW, SKYLIGHT];
+            let tables = [light::DIRECTIONS, light::SKY_VIEW, SKYLIGHT];
             parts.extend([light::BASE, light::HARMONICS, sun::WGSL, AIR_VIEW, include_str!("air/aerial.wgsl")]);
             parts.extend([&tables[..], &[include_str!("passes/water_sky.wgsl")]].concat());
         }
