@@ -5,7 +5,6 @@ use bevy::camera::{Hdr, ScalingMode, Viewport};
 use bevy::core_pipeline::prepass::{DeferredPrepass, DepthPrepass};
 use bevy::ecs::system::RunSystemOnce;
 use bevy::light::CascadeShadowConfigBuilder;
-use bevy::math::Vec3Swizzles;
 use bevy::pbr::DefaultOpaqueRendererMethod;
 use bevy::prelude::*;
 use bevy::render::RenderApp;

@@ -1,7 +1,6 @@
 //! Questions that the world answers on the CPU, in the same frame, without asking the device.
 
 use bevy::ecs::system::SystemParam;
-use bevy::math::Vec3Swizzles;
 use bevy::prelude::*;
 use horizon_field::CELL;
 use horizon_field::march::{Anchored, Cast, Ray, Surface};
