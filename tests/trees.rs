@@ -215,7 +215,8 @@ fn one_that_is_felled_is_gone_alone() {
     let camera = truth_camera(&pose(), FOV, SIZE);
     let mut changed = 0;
     for (i, (before, distance)) in before.iter().zip(distances(&before, &camera, NEAR)).enumerate() {
-        if *before == after[i] {
+        // Within what rounding makes of other bounds.
+        if (before - after[i]).abs() <= 1e-4 * before {
             continue;
         }
         changed += 1;
