@@ -2,7 +2,7 @@
 //! cast shadows.
 
 use bevy::camera::{Hdr, ScalingMode, Viewport};
-use bevy::core_pipeline::prepass::{DeferredPrepass, DepthPrepass};
+use bevy::core_pipeline::prepass::{DeferredPrepass, DepthPrepass, MotionVectorPrepass};
 use bevy::ecs::system::RunSystemOnce;
 use bevy::light::CascadeShadowConfigBuilder;
 use bevy::pbr::DefaultOpaqueRendererMethod;
@@ -303,11 +303,15 @@ fn pipelines(stage: &Stage) -> usize {
 
 #[test]
 fn every_kind_of_view_draws_them_and_a_scene_without_pays_nothing() {
-    let changes: [(&str, fn(&mut Stage)); 4] = [
+    let changes: [(&str, fn(&mut Stage)); 5] = [
         ("as it is", |_| {}),
         ("LDR, with four samples", |stage| {
             let camera = stage.camera;
             stage.world().entity_mut(camera).remove::<Hdr>().insert(Msaa::Sample4);
+        }),
+        ("deferred, with motion vectors", |stage| {
+            let camera = stage.camera;
+            stage.world().entity_mut(camera).insert((DepthPrepass, DeferredPrepass, MotionVectorPrepass));
         }),
         ("in a viewport", |stage| {
             let camera = stage.camera;
