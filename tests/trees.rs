@@ -197,11 +197,9 @@ fn one_that_is_felled_is_gone_alone() {
         stage.world().run_system_once(ask).expect("the query's resources are there")
     };
     let standing = around(&mut stage);
-    let eye = pose().translation;
-    let one = *standing
-        .iter()
-        .min_by(|a, b| a.position.distance(eye).total_cmp(&b.position.distance(eye)))
-        .expect("the woods are dense");
+    // About the middle of the picture.
+    let away = |plant: &StandingPlant| plant.position.xz().distance(Vec2::new(10.0, -45.0));
+    let one = *standing.iter().min_by(|a, b| away(a).total_cmp(&away(b))).expect("the woods are dense");
     let ground = stage.world().query_filtered::<Entity, With<Trees>>().single(stage.world()).expect("one terrain");
     let mut felled = Felled::default();
     assert!(felled.fell(one.id));
@@ -226,7 +224,7 @@ fn one_that_is_felled_is_gone_alone() {
         assert!(off < 1.2 * one.radius + 0.2 && at.y < one.position.y + 1.05 * one.height, "{off} m from the trunk");
     }
     println!("{} plants stood, and {changed} pixels changed", standing.len());
-    assert!(changed > 30, "{changed}");
+    assert!(changed > 10, "{changed}");
     // And it stands again, to the bit.
     stage.world().entity_mut(ground).remove::<Felled>();
     stage.settle();
