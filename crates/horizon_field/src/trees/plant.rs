@@ -1,5 +1,7 @@
 //! One plant, and its record for the device.
 
+#[cfg(feature = "reflect")]
+use bevy_reflect::std_traits::ReflectDefault;
 use serde::{Deserialize, Serialize};
 
 use crate::Place;
