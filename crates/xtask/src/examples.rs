@@ -8,13 +8,14 @@ use std::{env, fs};
 use crate::run::{Failure, Tool, root};
 
 /// Each example, with the options that make it end by itself after a few frames.
-const UNATTENDED: [(&str, &[(&str, &str)]); 9] = [
+const UNATTENDED: [(&str, &[(&str, &str)]); 10] = [
     ("balls", &[("--frames", "3")]),
     ("bench", &[("--frames", "2"), ("--size", "160x90")]),
     ("far_away", &[("--frames", "3")]),
     ("fly_through", &[("--frames", "3"), ("--size", "160x90")]),
     // The world file comes with the third frame or so.
     ("forest", &[("--frames", "8")]),
+    ("lake", &[("--frames", "3")]),
     ("lights", &[("--frames", "3")]),
     ("minimal", &[("--frames", "3")]),
     // A pretended pointer clicks every three frames.

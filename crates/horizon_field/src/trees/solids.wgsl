@@ -277,6 +277,17 @@ fn plant_trunk_normal(solid: PlantSolid, p: vec3<f32>) -> vec3<f32> {
     return plant_gradient_out(solid, (plant_own(solid, p) - e.centre) / (e.radii * e.radii));
 }
 
+// Whether a ray comes near enough to a plant, within `range`, to meet it: most of a dual cell's four it does not. By bounds alone.
+fn plant_is_near(plant: Plant, cell: vec2<f32>, origin: vec3<f32>, direction: vec3<f32>, range: vec2<f32>) -> bool {
+    let species = plant_species_of(plant);
+    let reach = plant.radius + plant_forest.species[species].lean * plant.height + length(plant_forest.sway) + 1e-3;
+    let away = cell + plant_forest.spacing * unpack2x16unorm(plant.offset) - origin.xz;
+    let across = away.x * direction.z - away.y * direction.x;
+    let y = origin.y + direction.y * range - plant.foot;
+    return across * across <= reach * reach * dot(direction.xz, direction.xz)
+        && max(y.x, y.y) >= -plant.height && min(y.x, y.y) <= 1.01 * plant.height;
+}
+
 // Where, within `range`, a ray first meets a solid, and what: `footprint` is a pixel's width there, in metres. What is passed
 // over is thinner than the shortest step.
 fn plant_cast(solid: PlantSolid, origin: vec3<f32>, direction: vec3<f32>, range: vec2<f32>, footprint: f32) -> PlantHit {
@@ -342,10 +353,11 @@ fn plant_dual_cast(
     for (var i = 0; i < 4; i++) {
         let cell = dual + vec2<i32>(i & 1, i >> 1u);
         let plant = plant_at(cell);
-        if !plant_stands(plant) {
+        let corner = plant_forest.spacing * vec2<f32>(cell);
+        if !plant_stands(plant) || !plant_is_near(plant, corner, origin, direction, vec2<f32>(range.x, hit.t)) {
             continue;
         }
-        let solid = plant_solid(plant, plant_forest.spacing * vec2<f32>(cell));
+        let solid = plant_solid(plant, corner);
         let footprint = max(cone.x + cone.y * plant_along(solid, origin, direction), 1e-6);
         let found = plant_cast(solid, origin, direction, vec2<f32>(range.x, hit.t), footprint);
         if found.part != PLANT_NOTHING {

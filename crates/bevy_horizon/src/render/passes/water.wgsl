@@ -65,6 +65,12 @@ struct Behind {
     light: vec3<f32>,
 }
 
+// How wide what is seen of level ground in a pixel is along the view.
+fn seen_width(o: vec3<f32>) -> f32 {
+    let far = length(o);
+    return footprint_at(far) * clamp(far / max(abs(o.y), 1e-3), 1.0, 20.0);
+}
+
 // The light in the water under a surface that gets so much of the sun.
 fn light_in(body: u32, sun_seen: f32) -> WaterLight {
     return water_lit(waters.bodies[body].optics, view.sun_direction, view.sun * sun_seen, WATER_PI * skylight_on_level());
@@ -79,7 +85,7 @@ fn bed_light(body: u32, o: vec3<f32>, under: f32, light: WaterLight) -> vec3<f32
     if (under < 40.0) {
         // Sunlight crossed the surface there. The deeper the bed, the wider the waves that gather light on it.
         let crossed = o.xz + lit.sun.xz / lit.sun.y * under;
-        let bend = wave_bend(body, crossed, 0.05 + 0.02 * under + 2.0 * footprint_at(length(o)));
+        let bend = wave_bend(body, crossed, 0.08 + 0.03 * under + seen_width(o));
         let focus = water_focus(bend.xzy, under / lit.sun.y, optics.index, 3.0);
         // None where the surface is in shadow.
         let sunny = clamp(light.sun_irradiance.y / max(lit.sun_irradiance.y, 1e-6), 0.0, 1.0);
@@ -145,9 +151,9 @@ fn foam_at(body: u32, o: vec3<f32>, breaking: f32, shoal: f32, footprint: f32) -
         return 0.0;
     }
     // 1 at the water's edge.
-    let run = 0.25 + 0.5 * waters.bodies[body].bound;
+    let run = 0.4 + 0.8 * waters.bodies[body].bound;
     let shore = 1.0 - smoothstep(0.0, run, shoal);
-    let amount = wanted * max(breaking, 0.7 * shore * shore);
+    let amount = wanted * max(breaking, shore * shore);
     let clumps = foam_clumps(body, o.xz, footprint);
     return clamp(1.6 * amount - 0.6 * clumps, 0.0, 1.0) * min(amount, 1.0);
 }
@@ -167,8 +173,9 @@ fn seen_from_air(pixel: WaterPixel, position: vec4<f32>, met: Met, depth: f32, t
     var normal = normalize(vec3<f32>(-shape.slope.x, 1.0, -shape.slope.y));
     let v = -d;
     let facing = dot(normal, v);
-    if (facing < 0.01) {
-        normal = normalize(normal + (0.01 - facing) * v);
+    // A pixel on a crest sees slopes that face it; one that is all but parallel would mirror the horizon alone.
+    if (facing < 0.08) {
+        normal = normalize(normal + (0.08 - facing) * v);
     }
     let cosine = max(dot(normal, v), 0.01);
     let mean = 0.5 * (variance.x + variance.y);

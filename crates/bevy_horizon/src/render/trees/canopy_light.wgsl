@@ -11,7 +11,7 @@ fn canopy_depth(dual: vec2<i32>, origin: vec3<f32>, direction: vec3<f32>, range:
     for (var i = 0; i < 4; i++) {
         let cell = dual + vec2<i32>(i & 1, i >> 1u);
         let plant = plant_at(cell);
-        if (plant_stands(plant)) {
+        if (plant_stands(plant) && plant_is_near(plant, plant_forest.spacing * vec2<f32>(cell), origin, direction, range)) {
             depth += plant_depth(grove_solid(plant, cell), origin, direction, range);
         }
     }
