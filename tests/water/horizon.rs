@@ -1,0 +1,56 @@
+//! A sea without end, and without ground: it reaches the horizon, which lies on the eye's level.
+
+use bevy::prelude::*;
+use bevy_horizon::prelude::*;
+
+use super::{Eye, finite, settle, stage, still};
+
+const SIZE: [u32; 2] = [160, 120];
+/// How far down the camera looks, in radians.
+const PITCH: f32 = 0.1;
+
+fn eye(above: f32) -> Eye {
+    let down = Quat::from_euler(EulerRot::YXZ, 0.7, -PITCH, 0.0);
+    Eye::new(Transform::from_xyz(12.0, above, -3.0).with_rotation(down), SIZE)
+}
+
+#[test]
+fn the_horizon_lies_on_the_eye_s_level() {
+    // Level rays have one row, for the camera does not roll: tan(pitch) over tan(fov/2), of half the height, over the middle.
+    let expected = 0.5 * SIZE[1] as f32 * (1.0 - PITCH.tan() / eye(1.0).half().y);
+    for air in [None, Some(SkyModel::Gradient), Some(SkyModel::Full)] {
+        for waves in [Waves::Still, Waves::breeze()] {
+            let mut stage = stage(SIZE, Water { waves: waves.clone(), ..still() });
+            stage.light();
+            if let Some(model) = air {
+                stage.world().spawn(Atmosphere { model, ..default() });
+            }
+            for above in [2.0, 2000.0] {
+                eye(above).put(&mut stage);
+                settle(&mut stage);
+                let depth = stage.depth();
+                let width = SIZE[0] as usize;
+                let mut worst = 0.0f32;
+                for x in 0..width {
+                    let column = || (0..SIZE[1] as usize).map(|y| depth[y * width + x]);
+                    let first = column().position(|depth| depth > 0.0).expect("there is sea");
+                    assert!(column().skip(first).all(|depth| depth > 0.0), "column {x} has holes");
+                    // The border lies over the first row of water.
+                    worst = worst.max((first as f32 - expected).abs());
+                }
+                println!("{air:?}, {}, from {above} m: the horizon is {worst:.2} px off row {expected:.2}", waves.name());
+                assert!(worst <= 1.0, "{air:?}, {}, from {above} m: {worst} px", waves.name());
+                assert!(finite(&stage.colour()));
+            }
+        }
+    }
+}
+
+/// A mesh of a large square ends before the horizon.
+#[test]
+fn a_sea_of_sixty_kilometres_would_end_below_it() {
+    let pixel = 2.0 * eye(1.0).half().y / SIZE[1] as f32;
+    let naive = (2000.0f32 / 60_000.0) / pixel;
+    println!("{naive:.1} px");
+    assert!(naive > 3.0);
+}
