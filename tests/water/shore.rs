@@ -1,10 +1,11 @@
 //! The shore: where the ground goes through the level.
 
+use bevy::ecs::system::RunSystemOnce;
 use bevy::prelude::*;
 use bevy_horizon::prelude::*;
 use horizon_field::field::{HeightImage, ImageField, Remap};
 
-use super::{Eye, finite, settle, stage, still};
+use super::{Eye, FOV, Stage, finite, settle, stage, still};
 
 /// How steeply the ground rises towards +x.
 const SLOPE: f64 = 0.1;
@@ -24,8 +25,7 @@ fn beach() -> Terrain {
 }
 
 /// Where the ground is 0 m high, by its own answers.
-fn line(stage: &mut super::Stage) -> f32 {
-    use bevy::ecs::system::RunSystemOnce;
+fn line(stage: &mut Stage) -> f32 {
     let ask = |ground: HorizonQuery| {
         let height = |x: f32, z: f32| ground.height(Vec3::new(x, 0.0, z)).expect("there is ground");
         let (mut wet, mut dry) = (-1000.0, 1000.0);
@@ -46,7 +46,7 @@ fn the_waterline_lies_where_the_plane_goes_through_the_level() {
     let slant = Transform::from_xyz(20.0, 15.0, 30.0).looking_to(Vec3::new(-0.5, -0.4, -1.0), Vec3::Y);
     let flat = Transform::from_xyz(30.0, 6.0, 0.0).looking_to(Vec3::new(-0.3, -0.05, -1.0), Vec3::Y);
     let eyes = [
-        ("from above", Eye::down(Vec3::Y * 40.0, bevy_horizon_workspace::stage::FOV, SIZE)),
+        ("from above", Eye::down(Vec3::Y * 40.0, FOV, SIZE)),
         ("at a slant", Eye::new(slant, SIZE)),
         ("along the shore", Eye::new(flat, SIZE)),
     ];

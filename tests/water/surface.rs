@@ -1,11 +1,10 @@
 //! The drawn surface is the one that `HorizonQuery` answers, to a centimetre: what floats by it floats.
 
-use bevy::math::primitives::Circle;
 use bevy::prelude::*;
 use bevy_horizon::prelude::*;
 use horizon_field::waves::{FbmWaves, Gerstner, Sines};
 
-use super::{Eye, answers, settle, stage};
+use super::{Eye, Stage, answers, settle, stage};
 
 /// Metres that what floats may be off.
 const CLOSE: f32 = 0.01;
@@ -62,7 +61,7 @@ fn the_drawn_surface_is_the_one_that_is_answered() {
 }
 
 /// The lowest point of the surface within some hundred metres.
-fn trough(stage: &mut super::Stage) -> Vec3 {
+fn trough(stage: &mut Stage) -> Vec3 {
     let points: Vec<Vec3> =
         (0..200).flat_map(|i| (0..200).map(move |j| Vec3::new(i as f32 - 100.0, 0.0, j as f32 - 100.0))).collect();
     let heights = answers(stage, points.clone(), 0.0);
@@ -71,14 +70,14 @@ fn trough(stage: &mut super::Stage) -> Vec3 {
 }
 
 /// A small disc that lies level.
-fn disc(stage: &mut super::Stage, radius: f32) -> Entity {
+fn disc(stage: &mut Stage, radius: f32) -> Entity {
     let world = stage.world();
     let mesh = world.resource_mut::<Assets<Mesh>>().add(Circle::new(radius));
     let material = world.resource_mut::<Assets<StandardMaterial>>().add(Color::srgb(0.9, 0.1, 0.1));
     world.spawn((Mesh3d(mesh), MeshMaterial3d(material), Transform::default())).id()
 }
 
-fn lay(stage: &mut super::Stage, disc: Entity, at: Vec3) {
+fn lay(stage: &mut Stage, disc: Entity, at: Vec3) {
     let level = Quat::from_rotation_x(-std::f32::consts::FRAC_PI_2);
     stage.world().entity_mut(disc).insert(Transform::from_translation(at).with_rotation(level));
 }
