@@ -105,7 +105,7 @@ fn every_pixel_is_finite_wherever_the_eye_is() {
 fn far_under_it_is_dark() {
     const SIZE: [u32; 2] = [48, 48];
     let mut stage = stage(SIZE, still());
-    stage.light();
+    ambient(&mut stage);
     let mut brightest = |y: f32| {
         Eye::new(Transform::from_xyz(0.0, y, 0.0).looking_to(Vec3::Y, Vec3::NEG_Z), SIZE).put(&mut stage);
         settle(&mut stage);
