@@ -40,9 +40,9 @@ fn two_lakes_lie_at_their_levels_within_their_outlines() {
             let depth = stage.depth();
             // The higher one hides the lower one.
             let lake = |pixel: Vec2| {
-                [1, 0].into_iter().find(|i| {
-                    eye.on_plane(pixel, at[*i].y).is_some_and(|point| inside[*i](point - at[*i]))
-                })
+                [1, 0]
+                    .into_iter()
+                    .find(|i| eye.on_plane(pixel, at[*i].y).is_some_and(|point| inside[*i](point - at[*i])))
             };
             for i in 0..2 {
                 // A lake's waves are some centimetres high; a pixel is half a metre wide.
@@ -101,9 +101,8 @@ fn more_seas_than_there_are_tiles_for_are_still() {
     settle(&mut stage);
     let depth = stage.depth();
     let spread = |i: u32| {
-        let near = |k: &usize| {
-            eye.on_plane(eye.centre(*k), 0.0).is_some_and(|p| (p - at(i)).abs().xz().max_element() < 2.0)
-        };
+        let near =
+            |k: &usize| eye.on_plane(eye.centre(*k), 0.0).is_some_and(|p| (p - at(i)).abs().xz().max_element() < 2.0);
         let heights = || (0..eye.pixels()).filter(near).map(|k| eye.point(k, depth[k]).y);
         heights().fold(f32::MIN, f32::max) - heights().fold(f32::MAX, f32::min)
     };

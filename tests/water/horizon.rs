@@ -38,7 +38,10 @@ fn the_horizon_lies_on_the_eye_s_level() {
                     // The border lies over the first row of water.
                     worst = worst.max((first as f32 - expected).abs());
                 }
-                println!("{air:?}, {}, from {above} m: the horizon is {worst:.2} px off row {expected:.2}", waves.name());
+                println!(
+                    "{air:?}, {}, from {above} m: the horizon is {worst:.2} px off row {expected:.2}",
+                    waves.name()
+                );
                 assert!(worst <= 1.0, "{air:?}, {}, from {above} m: {worst} px", waves.name());
                 assert!(finite(&stage.colour()));
                 // A square of 60 km would end this far below.

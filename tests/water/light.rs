@@ -64,7 +64,8 @@ fn a_mesh_s_shadow_darkens_the_light_in_murky_water() {
     assert!(shaded.max_element() < 0.6 && shaded.min_element() > 0.02, "{shaded}");
     assert!((sunny - 1.0).abs().max_element() < 0.02, "{sunny}");
     // A light that casts no shadows casts none on water.
-    let light = stage.world().query_filtered::<Entity, With<DirectionalLight>>().single(stage.world()).expect("one sun");
+    let light =
+        stage.world().query_filtered::<Entity, With<DirectionalLight>>().single(stage.world()).expect("one sun");
     stage.world().get_mut::<DirectionalLight>(light).expect("a light").shadow_maps_enabled = false;
     settle(&mut stage);
     let without = at(&stage.colour(), SHADED) / at(&open, SHADED);

@@ -77,7 +77,10 @@ fn assert_nearer(project: fn(&mut Stage), waves: Waves) {
         shown[usize::from(meshes > water)] += 1;
         hidden += usize::from(*meshes > 0.0 && water > meshes);
     }
-    println!("{}: {wrong} are neither, {shown:?} of water and meshes, {hidden} pixels of meshes are under water", waves.name());
+    println!(
+        "{}: {wrong} are neither, {shown:?} of water and meshes, {hidden} pixels of meshes are under water",
+        waves.name()
+    );
     // Where a crest's edge is, the last step of the march depends on what stands behind.
     assert!(wrong * 1000 <= if waves == Waves::Still { 0 } else { both.len() }, "{}: {wrong} pixels", waves.name());
     assert!(shown[0] > 10_000 && shown[1] > 300 && hidden > 300, "{shown:?}, {hidden}");

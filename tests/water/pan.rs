@@ -118,7 +118,10 @@ fn a_slow_pan_does_not_sparkle() {
             stage.colour().iter().map(|c| [0, 1, 2].map(|k| shown(c[k]))).collect()
         });
         let naive = difference(&pan, |eye| unfiltered(&surface, eye));
-        println!("{}: mean {:.3}, p99.9 {:.2} of 255; unfiltered {:.3}, {:.2}", pan.name, ours[0], ours[1], naive[0], naive[1]);
+        println!(
+            "{}: mean {:.3}, p99.9 {:.2} of 255; unfiltered {:.3}, {:.2}",
+            pan.name, ours[0], ours[1], naive[0], naive[1]
+        );
         assert!(naive[0] > 1.0 && naive[1] > 8.0, "{}: an unfiltered sea must sparkle: {naive:?}", pan.name);
         if ours[0] > 1.0 || ours[1] > 8.0 {
             failed.push(format!("{}: mean {}, p99.9 {}", pan.name, ours[0], ours[1]));

@@ -34,7 +34,9 @@ fn the_drawn_surface_is_the_one_that_is_answered() {
         // [ours, the level, the waves of the last frame but one]: how far each is off, at most.
         let mut worst = [0.0f32; 3];
         let mut count = 0;
-        for (origin, time) in [(Place::ORIGIN, 0.0), (Place::ORIGIN, 3.7), (Place::from_metres([1e7 + 0.3, 0.0, -3e6]), 1e6 + 0.37)] {
+        for (origin, time) in
+            [(Place::ORIGIN, 0.0), (Place::ORIGIN, 3.7), (Place::from_metres([1e7 + 0.3, 0.0, -3e6]), 1e6 + 0.37)]
+        {
             stage.world().insert_resource(WorldOrigin(origin));
             stage.world().resource_mut::<WaterTime>().0 = time;
             for at in [Vec2::ZERO, Vec2::new(137.3, -52.1), Vec2::new(-4021.0, 3333.0)] {
@@ -54,7 +56,10 @@ fn the_drawn_surface_is_the_one_that_is_answered() {
                 }
             }
         }
-        println!("{name}: {:.4} m off at {count} points; its level {:.3} m, two frames ago {:.3} m", worst[0], worst[1], worst[2]);
+        println!(
+            "{name}: {:.4} m off at {count} points; its level {:.3} m, two frames ago {:.3} m",
+            worst[0], worst[1], worst[2]
+        );
         assert!(worst[0] < CLOSE, "{name}: {} m", worst[0]);
         assert!(!moves || (worst[1] > 5.0 * CLOSE && worst[2] > CLOSE), "{name} must move: {worst:?}");
     }
@@ -139,7 +144,10 @@ fn what_floats_in_a_trough_shows() {
                 let i = eye.pixel(at);
                 let drawn = eye.point(i, depth[i]);
                 let water = answers(&mut stage, vec![drawn], 0.0)[0].expect("the sea has no end");
-                println!("a disc {over} m over the water at {:.3} m: drawn at {:.3} m, the water there at {water:.3} m", at.y, drawn.y);
+                println!(
+                    "a disc {over} m over the water at {:.3} m: drawn at {:.3} m, the water there at {water:.3} m",
+                    at.y, drawn.y
+                );
                 if over > 0.0 {
                     // The disc itself, to the width of a pixel.
                     assert!((drawn.y - at.y).abs() < 0.01 && drawn.y > water, "{at}: {drawn} is drawn");
