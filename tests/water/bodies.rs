@@ -144,7 +144,7 @@ fn a_scene_without_water_pays_nothing_and_water_that_is_removed_is_gone() {
     (0..3).for_each(|_| stage.off.update());
     assert!(!of_water(&stage).0, "its tiles are gone");
     assert!(stage.depth() == depth && stage.colour() == colour, "the picture is what it was");
-    assert_eq!(answers(&mut stage, vec![Vec3::ZERO], 0.0), [None]);
+    assert_eq!(answers(&mut stage, vec![Vec3::ZERO], 0.0), [None::<f32>]);
     stage.world().entity_mut(water).insert(still());
     settle(&mut stage);
     assert!(stage.depth() != depth);

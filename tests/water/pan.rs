@@ -51,7 +51,7 @@ fn shown(colour: f32) -> f32 {
 }
 
 /// What a picture has at a point, between its pixels.
-fn between(picture: &Picture, at: Vec2) -> Option<[f32; 3]> {
+fn between(picture: &[[f32; 3]], at: Vec2) -> Option<[f32; 3]> {
     let (floor, t) = ((at - 0.5).floor(), (at - 0.5) - (at - 0.5).floor());
     let [width, height] = SIZE.map(|side| side as i32);
     let (x, y) = (floor.x as i32, floor.y as i32);
