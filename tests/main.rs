@@ -27,5 +27,6 @@ mod stability;
 mod stamps;
 mod targets;
 mod trees;
+mod water;
 mod waves;
 mod worlds;

@@ -134,7 +134,7 @@ fn painted(own: vec3<f32>, colour: vec3<f32>, share: vec3<f32>, depth: f32) -> P
     return Painted(vec4<f32>(min(shown + colour * share, vec3<f32>(6e4)), 1.0), depth);
 }
 
-// The farthest and the nearest depth of a pixel's samples.
+// The farthest and the nearest depth of a pixel's samples. Where the farthest is not 0, nothing that was cleared is in its colour.
 fn drawn_depths(at: vec2<i32>) -> vec2<f32> {
     var depths = vec2<f32>(depth_at(at, 0));
     for (var i = 1; i < depth_samples(); i++) {
@@ -199,7 +199,7 @@ fn seen_from_air(pixel: WaterPixel, position: vec4<f32>, met: Met, depth: f32, t
     if (depth > 0.0 || view.orthographic != 0u) {
         let bent = pixel_of(o + into * min(t_scene - t, 12.0));
         if (bent.x >= 0.0) {
-            let bent_depth = depth_at(vec2<i32>(bent), 0);
+            let bent_depth = drawn_depths(vec2<i32>(bent)).x;
             if (bent_depth > 0.0 && waters.bodies[body].above + drawn_at(bent, bent_depth).y < 0.0) {
                 behind_at = bent;
                 behind_depth = bent_depth;
@@ -260,7 +260,7 @@ fn seen_from_within(pixel: WaterPixel, position: vec4<f32>, body: u32, met: Met,
         let bent = pixel_of(o + out * 50.0);
         var on_screen = false;
         if (bent.x >= 0.0) {
-            let bent_depth = depth_at(vec2<i32>(bent), 0);
+            let bent_depth = drawn_depths(vec2<i32>(bent)).x;
             on_screen = bent_depth > 0.0 && waters.bodies[body].above + drawn_at(bent, bent_depth).y > 0.0;
         }
         if (on_screen) {

@@ -10,7 +10,7 @@ fn behind_drawn(body: u32, p: vec3<f32>) -> vec3<f32> {
     if (at.x < 0.0) {
         return vec3<f32>(at, -1.0);
     }
-    let depth = depth_at(vec2<i32>(at), 0);
+    let depth = drawn_depths(vec2<i32>(at)).x;
     if (depth <= 0.0) {
         return vec3<f32>(at, -1.0);
     }
