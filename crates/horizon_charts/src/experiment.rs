@@ -4,6 +4,7 @@ use std::io;
 use std::path::PathBuf;
 
 use horizon_field::FieldError;
+use horizon_field::trees::ForestError;
 use serde_json::{Map, Value};
 use thiserror::Error;
 
@@ -75,6 +76,9 @@ pub enum ChartsError {
     /// A field was refused.
     #[error(transparent)]
     Field(#[from] FieldError),
+    /// A forest was refused.
+    #[error(transparent)]
+    Forest(#[from] ForestError),
     /// An image can't be had.
     #[error("{}: {reason}", file.display())]
     Image {

@@ -9,6 +9,7 @@ pub mod naturalness;
 pub mod queries;
 pub mod seed_000;
 pub mod sky;
+pub mod trees;
 
 use crate::experiment::Experiment;
 
@@ -24,5 +25,6 @@ pub fn all() -> Vec<Box<dyn Experiment>> {
         Box::new(naturalness::Naturalness),
         Box::new(cameras::Cameras),
         Box::new(sky::Sky),
+        Box::new(trees::Trees),
     ]
 }
