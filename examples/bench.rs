@@ -8,6 +8,7 @@ use bevy::render::RenderApp;
 use bevy::render::renderer::RenderAdapterInfo;
 use bevy_horizon::prelude::*;
 use bevy_horizon::render::cache::Caches;
+use bevy_horizon::scene::PlacedWater;
 use bevy_horizon_workspace::stage::Stage;
 use clap::Parser;
 
@@ -59,7 +60,7 @@ fn size(text: &str) -> Result<[u32; 2], String> {
 }
 
 /// The passes, by the names of their spans.
-const PASSES: [&str; 9] = [
+const PASSES: [&str; 15] = [
     "horizon_fill",
     "horizon_pyramid",
     "horizon_light",
@@ -68,6 +69,12 @@ const PASSES: [&str; 9] = [
     "horizon_ground_scaled",
     "horizon_shade",
     "horizon_cast",
+    "horizon_cast_trees",
+    "horizon_trees",
+    "horizon_sea",
+    "horizon_water",
+    "horizon_veil",
+    "horizon_haze",
     "horizon_sky",
 ];
 
@@ -88,7 +95,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let terrain = world.terrain.unwrap_or_default();
     let ground = terrain.field.compile::<2>(&horizon_field::field::NoImages)?;
     let origin = ground.anchor(&Place::ORIGIN);
-    stage.world().spawn(terrain);
+    let mut ground_entity = stage.world().spawn(terrain);
+    if let Some(trees) = world.trees {
+        ground_entity.insert(trees);
+    }
+    for PlacedWater { level, middle: [x, z], water } in world.waters {
+        stage.world().spawn((water, Transform::from_xyz(x, level, z)));
+    }
     let sky = stage.world().spawn(Atmosphere::default()).id();
     let camera = stage.camera;
     stage.world().entity_mut(camera).insert(options.quality.camera());

@@ -4,6 +4,7 @@ mod bits;
 mod holes;
 mod stamps;
 mod sun_words;
+mod water;
 
 use std::time::Instant;
 

@@ -170,8 +170,9 @@ fn the_world_is_drawn_within_webgpus_default_limits() {
 
     let target = off.target();
     let world = off.app.world_mut();
-    world.spawn((Terrain::default(), Atmosphere::default()));
-    world.spawn((DirectionalLight { illuminance: 100_000.0, ..default() }, Sun::default().transform()));
+    world.spawn((Terrain::default(), Trees::default(), Atmosphere::default()));
+    let light = DirectionalLight { illuminance: 100_000.0, shadow_maps_enabled: true, ..default() };
+    world.spawn((light, Sun::default().transform()));
     world.spawn((
         Camera3d::default(),
         target,

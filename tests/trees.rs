@@ -2,10 +2,9 @@
 //! cast shadows.
 
 use bevy::camera::{Hdr, ScalingMode, Viewport};
-use bevy::core_pipeline::prepass::{DeferredPrepass, DepthPrepass};
+use bevy::core_pipeline::prepass::{DeferredPrepass, DepthPrepass, MotionVectorPrepass};
 use bevy::ecs::system::RunSystemOnce;
 use bevy::light::CascadeShadowConfigBuilder;
-use bevy::math::Vec3Swizzles;
 use bevy::pbr::DefaultOpaqueRendererMethod;
 use bevy::prelude::*;
 use bevy::render::RenderApp;
@@ -198,11 +197,9 @@ fn one_that_is_felled_is_gone_alone() {
         stage.world().run_system_once(ask).expect("the query's resources are there")
     };
     let standing = around(&mut stage);
-    let eye = pose().translation;
-    let one = *standing
-        .iter()
-        .min_by(|a, b| a.position.distance(eye).total_cmp(&b.position.distance(eye)))
-        .expect("the woods are dense");
+    // About the middle of the picture.
+    let away = |plant: &StandingPlant| plant.position.xz().distance(Vec2::new(10.0, -45.0));
+    let one = *standing.iter().min_by(|a, b| away(a).total_cmp(&away(b))).expect("the woods are dense");
     let ground = stage.world().query_filtered::<Entity, With<Trees>>().single(stage.world()).expect("one terrain");
     let mut felled = Felled::default();
     assert!(felled.fell(one.id));
@@ -216,7 +213,8 @@ fn one_that_is_felled_is_gone_alone() {
     let camera = truth_camera(&pose(), FOV, SIZE);
     let mut changed = 0;
     for (i, (before, distance)) in before.iter().zip(distances(&before, &camera, NEAR)).enumerate() {
-        if *before == after[i] {
+        // Within what rounding makes of other bounds.
+        if (before - after[i]).abs() <= 1e-4 * before {
             continue;
         }
         changed += 1;
@@ -226,7 +224,7 @@ fn one_that_is_felled_is_gone_alone() {
         assert!(off < 1.2 * one.radius + 0.2 && at.y < one.position.y + 1.05 * one.height, "{off} m from the trunk");
     }
     println!("{} plants stood, and {changed} pixels changed", standing.len());
-    assert!(changed > 30, "{changed}");
+    assert!(changed > 10, "{changed}");
     // And it stands again, to the bit.
     stage.world().entity_mut(ground).remove::<Felled>();
     stage.settle();
@@ -303,11 +301,15 @@ fn pipelines(stage: &Stage) -> usize {
 
 #[test]
 fn every_kind_of_view_draws_them_and_a_scene_without_pays_nothing() {
-    let changes: [(&str, fn(&mut Stage)); 4] = [
+    let changes: [(&str, fn(&mut Stage)); 5] = [
         ("as it is", |_| {}),
         ("LDR, with four samples", |stage| {
             let camera = stage.camera;
             stage.world().entity_mut(camera).remove::<Hdr>().insert(Msaa::Sample4);
+        }),
+        ("deferred, with motion vectors", |stage| {
+            let camera = stage.camera;
+            stage.world().entity_mut(camera).insert((DepthPrepass, DeferredPrepass, MotionVectorPrepass));
         }),
         ("in a viewport", |stage| {
             let camera = stage.camera;

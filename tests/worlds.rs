@@ -130,6 +130,7 @@ fn bad_files() -> Vec<Bad> {
     let field = |field: &str| GOOD.replace("gain: 0.5", field);
     let material =
         |parts: &str| GOOD.replace("    ),\n    sun", &format!("        material: ({parts}),\n    ),\n    sun"));
+    let trees = |parts: &str| GOOD.replace("    sun", &format!("    trees: ({parts}),\n    sun"));
     let nested = |depth: usize| {
         let field = format!("field: {}Constant(0.0){}", "Add([\n".repeat(depth), "])".repeat(depth));
         format!("(version: 1, terrain: ({field}))")
@@ -154,6 +155,9 @@ fn bad_files() -> Vec<Bad> {
         ("infinite", GOOD.replace("1000.0", "inf"), value, &["line 5", "Fractal.wavelength", "inf"]),
         ("lacunarity 1", field("lacunarity: 1.0"), value, &["line 6", "Fractal.lacunarity"]),
         ("negative octaves", field("octaves: -3.0"), value, &["line 6", "Fractal.octaves", "-3"]),
+        ("cells of -1 m", trees("forest: (spacing: -1.0)"), value, &["line 9", "trees.forest.spacing", "-1"]),
+        ("crowns too wide", trees("forest: (species: [(radius: 2.0)])"), value, &["line 9", "species[0].radius"]),
+        ("wind of NaN", trees("wind: (0.1, NaN)"), value, &["line 9", "trees.wind[1]", "NaN"]),
         ("sun of NaN", GOOD.replace("elevation: 0.5", "elevation: NaN"), value, &["line 9", "sun.elevation", "NaN"]),
         ("unknown rule", material("layers: [(hight: ())]"), syntax, &["line 8", "hight"]),
         ("colour 1.5", material("base: (colour: (0.1, 1.5, 0.1))"), value, &["line 8", "material.base.colour", "1.5"]),

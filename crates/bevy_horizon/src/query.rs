@@ -3,7 +3,6 @@
 mod water;
 
 use bevy::ecs::system::SystemParam;
-use bevy::math::Vec3Swizzles;
 use bevy::prelude::*;
 use horizon_field::CELL;
 use horizon_field::march::{Anchored, Cast, Ray, Surface};

@@ -296,6 +296,12 @@ impl AssetLoader for WorldLoader {
             terrain.images = images.into_iter().collect();
             CompiledTerrain::new(terrain)
                 .map_err(|source| WorldFileError::Value { line: line_of(&text, &source), source })?;
+            if let Some(trees) = &world.trees {
+                trees.forest.compile("trees.forest", &terrain.images).map_err(|error| {
+                    let source = TerrainError::Trees(error.into());
+                    WorldFileError::Value { line: line_of(&text, &source), source }
+                })?;
+            }
         }
         Ok(world)
     }

@@ -23,7 +23,7 @@ mod species;
 mod truth;
 mod uniform;
 
-pub use cast::{Cone, DualCells, NEAR, PLANT_STEPS, PlantHit, PlantWork};
+pub use cast::{Cone, DualCells, PLANT_HURRY, PLANT_PATIENCE, PLANT_STEP, PLANT_STEPS, PlantHit, PlantWork};
 pub use cells::{Block, MAX_CELLS, cell_corner, cell_of};
 pub use check::ForestError;
 pub use felled::Felled;

@@ -12,8 +12,9 @@
 //! | [`caustics`] | where waves gather light on the bed |
 //! | [`foam`] | what whitecaps add |
 //!
-//! A view from above is L = F·(sky mirrored) + (1 − F)/n²·(T·L_bed + in-scattered): [`surface::crossing`] has the factor 1/n²,
-//! without which a pool looks nearly twice too bright.
+//! A view from above, of a bed under a path of d metres, is F · L_mirrored + (1 − F)/n² · L_below, with
+//! L_below = T(d) L_bed + blurred(d) (L̄_bed − L_upwelling) + L_in-scattered: the image, what has lost its outline, and the water's own
+//! light ([`body::Water`]). Without the factor 1/n² ([`surface::crossing`]) a pool looks nearly twice too bright.
 
 pub mod body;
 pub mod caustics;

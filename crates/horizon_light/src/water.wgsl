@@ -4,7 +4,9 @@
 
 const WATER_PI: f32 = 3.14159265;
 const WATER_SKY_COSINE: f32 = 0.84;
-const WATER_UP_COSINE: f32 = 0.5;
+const WATER_KIRK: vec4<f32> = vec4<f32>(5.6, 2.5, 0.975, 0.629);
+const WATER_GATHERED: f32 = 0.2;
+const WATER_MILKY: f32 = 5.0;
 const WATER_FARTHEST: f32 = 1e7;
 const WATER_LOWEST_SUN: f32 = 0.01;
 const WATER_MOLECULES: f32 = 0.835;
@@ -182,7 +184,7 @@ fn water_lobe(g: f32, nu: f32) -> f32 {
     return 0.25 / WATER_PI * (1.0 - g * g) / (base * sqrt(base));
 }
 
-// (1 - e^-x)/x for x >= 0.
+// (1 - e^-x)/x for x >= 0, by its series where that cancels.
 fn water_faded(x: vec3<f32>) -> vec3<f32> {
     let y = min(x, vec3<f32>(1e-2));
     let series = 1.0 - y * (0.5 - y / 6.0);
@@ -197,9 +199,10 @@ fn water_transmittance(water: Water, distance: f32) -> vec3<f32> {
 // What arrives besides, blurred: of a bed's mean radiance less the water's own upwelling there.
 fn water_blurred(water: Water, distance: f32) -> vec3<f32> {
     let reach = clamp(distance, 0.0, WATER_FARTHEST);
-    let lost = water.absorption + water_backscattering(water);
-    let forward = (water_attenuation(water) - lost) * reach;
-    return exp(-lost * reach) * forward * water_faded(forward);
+    let beam = water_attenuation(water);
+    let kept = min(water_field(water, 1.0).decay, beam);
+    let forward = (beam - kept) * reach;
+    return exp(-kept * reach) * forward * water_faded(forward);
 }
 
 // `sun_irradiance` on a plane that faces the sun, `sky_irradiance` on a level one, both above the water.
@@ -214,14 +217,15 @@ fn water_lit(water: Water, sun: vec3<f32>, sun_irradiance: vec3<f32>, sky_irradi
 }
 
 fn water_field(water: Water, cosine: f32) -> WaterField {
-    let backward = water_backscattering(water);
-    let lost = water.absorption + backward;
-    let two = 1.0 / WATER_UP_COSINE;
-    let down = 1.0 / cosine;
-    let sum = lost * (down + two);
-    let root = sqrt(max(sum * sum - 4.0 * two * down * backward * backward, vec3<f32>(0.0)));
-    let ratio = min(2.0 * down * backward / max(sum + root, vec3<f32>(1e-30)), vec3<f32>(1.0));
-    return WaterField(max(lost * down - two * backward * ratio, vec3<f32>(0.0)), ratio / WATER_PI);
+    let a = water.absorption;
+    let diffuse = (1.0 - water.anisotropy) * water.scattering + water.molecules;
+    let turns = max(WATER_KIRK.x * cosine - WATER_KIRK.y, 0.0);
+    let decay = sqrt(a * (a + turns * diffuse)) / cosine;
+    let once = 2.0 * water_backscattering(water) * (WATER_KIRK.z - WATER_KIRK.w * cosine);
+    let milky = diffuse / max(diffuse + WATER_MILKY * a, vec3<f32>(1e-30));
+    let y = once + max(0.375 * diffuse - once, vec3<f32>(0.0)) * milky;
+    let ratio = y / max(a + y + sqrt(a * (a + y + y)), vec3<f32>(1e-30));
+    return WaterField(decay, ratio / WATER_PI);
 }
 
 // Irradiance on a level plane, from above.
@@ -248,7 +252,8 @@ fn water_part(
     let near = field.decay * depth;
     let far = field.decay * end + beam * distance;
     let reach = distance * water_faded(abs(beam + field.decay * down) * distance);
-    return (scattered / cosine + turned * field.up) * exp(-min(near, far)) * reach;
+    let gathered = 1.0 + WATER_GATHERED * (1.0 - WATER_PI * field.up);
+    return (scattered / cosine + turned * field.up * gathered) * exp(-min(near, far)) * reach;
 }
 
 // Light scattered into `distance` of a view ray from `depth`: radiance where it starts. Ends at the surface at the latest.

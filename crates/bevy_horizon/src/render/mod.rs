@@ -1,6 +1,6 @@
 //! The picture. One stage a file, in data-flow order: `extract` (from the main world), `uniforms` (as shaders see it),
-//! `cache` (the field, at the resolution that the screen can show), `trees` (what grows on it), `air` (its tables), `view` (a camera's rays), `passes` (into the
-//! view).
+//! `cache` (the field, at the resolution that the screen can show), `trees` (what grows on it), `air` (its tables), `view` (a camera's
+//! rays), `passes` (into the view).
 
 pub mod able;
 mod air;

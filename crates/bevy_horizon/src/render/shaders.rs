@@ -70,6 +70,8 @@ pub enum Source {
     SeaSurface,
     /// Waves at every size.
     SeaMeans,
+    /// The motion vectors of plants.
+    TreeMotion,
     /// The simplest air.
     Gradient { ldr: bool, multisampled: bool },
     /// The air by a model that has tables.
@@ -112,6 +114,7 @@ impl Source {
         let mut all =
             vec![Self::Pyramid, Self::Light, Self::Clearance, Self::Transmittance, Self::Isotropic, Self::CastTrees];
         all.extend([Self::SeaTransform, Self::SeaSurface, Self::SeaMeans]);
+        all.push(Self::TreeMotion);
         all.extend(EITHER.map(|holes| Self::Cast { holes }));
         all.extend(EITHER.map(|first| Self::Moments { first }));
         all.extend(MODELS.map(|model| Self::ViewTables { model }));
@@ -155,6 +158,7 @@ impl Source {
             Self::Geometry { scaled, beside } => 0x0e + 3 * bits(&[scaled]) + beside as u128,
             Self::Heat { ldr } => 0x14 + bits(&[ldr]),
             Self::CastTrees => 0x16,
+            Self::TreeMotion => 0x17,
             Self::Trees { multisampled, air } => 0x18 + bits(&[multisampled, air]),
             Self::Gradient { ldr, multisampled } => 0x20 + bits(&[ldr, multisampled]),
             Self::Air { model, ldr, multisampled } => 0x30 + 4 * model as u128 + bits(&[ldr, multisampled]),
@@ -182,6 +186,7 @@ impl Source {
             Self::Cast { holes: false } => "cast",
             Self::Cast { holes: true } => "cast_holes",
             Self::CastTrees => "cast_trees",
+            Self::TreeMotion => "tree_motion",
             Self::Trees { .. } => "trees",
             Self::Geometry { scaled: false, beside: Beside::Nothing } => "geometry",
             Self::Geometry { scaled: false, beside: Beside::Motion } => "geometry_motion",
@@ -218,6 +223,7 @@ impl Source {
                 [&surface(), LOOK, include_str!("passes/cast.wgsl"), include_str!("passes/cast_holes.wgsl")].join("\n")
             }
             Self::CastTrees => [FOLIAGE, SOLIDS, GROVE, include_str!("passes/cast_trees.wgsl")].join("\n"),
+            Self::TreeMotion => [VIEW, MOTION, include_str!("passes/tree_motion.wgsl")].join("\n"),
             Self::Geometry { scaled, beside } => geometry(scaled, beside),
             Self::Heat { ldr } => heat(ldr),
             Self::Shade { deferred, multisampled, air, trees } => shade(deferred, multisampled, air, trees),
@@ -372,7 +378,7 @@ fn water(sky: WaterSky, multisampled: bool, waves: bool, ground: bool) -> String
             parts.extend([gradient::WGSL, GRADIENT_AIR, include_str!("passes/water_sky_gradient.wgsl")]);
         }
         WaterSky::Air => {
-            let tables = [light::SKY_VIEW, SKYLIGHT];
+            let tables = [light::DIRECTIONS, light::SKY_VIEW, SKYLIGHT];
             parts.extend([light::BASE, light::HARMONICS, sun::WGSL, AIR_VIEW, include_str!("air/aerial.wgsl")]);
             parts.extend([&tables[..], &[include_str!("passes/water_sky.wgsl")]].concat());
         }

@@ -141,6 +141,7 @@ impl WaterUniform {
             ..default()
         };
         let Some((index, sea)) = &water.sea else { return uniform };
+        uniform.ripples += sea.rest as f32;
         // Where the eye stands in the world, in f64: tiles do not move with Bevy's origin.
         let place = world.origin.translated(eye.as_dvec3().to_array());
         let at = [0, 2].map(|i| place.cell[i] as f64 * CELL + place.offset[i]);

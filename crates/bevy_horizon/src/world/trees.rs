@@ -15,7 +15,7 @@ use super::{CompiledStamps, CompiledTerrain, ParamError, Terrain, check_params};
 ///
 /// Stamps of [`Mode::KeepTrees`](horizon_field::stamp::Mode::KeepTrees) keep plants away, and so do holes; [`Felled`] takes single ones.
 /// Plants are drawn as far as their crowns are wider than about a pixel and a half, and at most some three and a half kilometres
-/// with the default spacing; towards there they shrink into the ground.
+/// with the default spacing; towards there they shrink into the ground. Debug views show the ground alone.
 #[derive(Component, Clone, Debug, PartialEq, Reflect, Serialize, Deserialize)]
 #[reflect(Component, Default, Clone, PartialEq)]
 #[serde(default, deny_unknown_fields)]
@@ -45,7 +45,8 @@ impl Trees {
     /// Refuses what makes no sense, but for the forest's fields.
     pub(crate) fn check(&self, path: &str) -> Result<(), TreesError> {
         self.forest.check(&format!("{path}.forest"))?;
-        Ok(check_params(path, self)?)
+        check_params(path, self)?;
+        Ok(())
     }
 }
 

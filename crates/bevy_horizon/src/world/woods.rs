@@ -2,8 +2,11 @@
 
 use std::sync::Arc;
 
+#[cfg(feature = "render")]
 use horizon_field::stamp::{Area, Mode, Placed};
-use horizon_field::trees::{Block, Felled, Forest, ForestError, Plant, PlantGround, Planting};
+#[cfg(feature = "render")]
+use horizon_field::trees::{Block, Forest};
+use horizon_field::trees::{Felled, ForestError, Plant, PlantGround, Planting};
 use horizon_field::{Place, Stamps};
 
 use super::TerrainFields;
@@ -31,11 +34,6 @@ impl Woods {
         PlantGround { field: &self.terrain.height, stamps: &self.stamps }
     }
 
-    /// What grows, as it was compiled.
-    pub fn forest(&self) -> &Forest {
-        self.planting.forest()
-    }
-
     /// The plants of a rectangle of the plane.
     pub fn plants_in(&self, corner: &Place, size: [f64; 2]) -> Result<Vec<Plant>, ForestError> {
         self.planting.plants_in(self.ground(), &self.felled, corner, size)
@@ -45,6 +43,11 @@ impl Woods {
 /// What only the picture asks.
 #[cfg(feature = "render")]
 impl Woods {
+    /// What grows, as it was compiled.
+    pub fn forest(&self) -> &Forest {
+        self.planting.forest()
+    }
+
     /// The edge of a cell, in metres.
     pub fn spacing(&self) -> f64 {
         self.forest().spacing
@@ -71,10 +74,8 @@ impl Woods {
     /// Where its plants are others than those of older woods.
     pub fn change(&self, old: &Self) -> WoodsChange {
         let same = self.forest() == old.forest() && Arc::ptr_eq(&self.terrain, &old.terrain);
-        // Of stamps that move no ground the sets keep no account.
-        let of_plants =
-            |stamps: &Stamps| -> Vec<Placed> { stamps.placed().filter(|placed| clears(placed)).cloned().collect() };
-        if !same || of_plants(&self.stamps) != of_plants(&old.stamps) {
+        // What the sets call changes are those of the ground.
+        if !same || clearings(&self.stamps) != clearings(&old.stamps) {
             return WoodsChange::Everywhere;
         }
         let felled = self.felled.changes(&old.felled).map(|id| [id.0; 2]);
@@ -88,8 +89,8 @@ impl Woods {
     }
 }
 
-/// Whether a stamp keeps plants away.
+/// The stamps that keep plants away.
 #[cfg(feature = "render")]
-fn clears(placed: &Placed) -> bool {
-    matches!(placed.edit.mode, Mode::KeepTrees | Mode::Hole)
+fn clearings(stamps: &Stamps) -> Vec<&Placed> {
+    stamps.placed().filter(|placed| matches!(placed.edit.mode, Mode::KeepTrees | Mode::Hole)).collect()
 }

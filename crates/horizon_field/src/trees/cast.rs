@@ -4,12 +4,17 @@ use super::plant::Plant;
 use super::solid::{Part, Solid, dot};
 use crate::real::Real;
 
-/// Steps within one crown, at most.
-pub const PLANT_STEPS: u32 = 96;
+/// Steps within one crown, at most; the longest ray has come out before.
+pub const PLANT_STEPS: u32 = 160;
 
-/// How near to a crown's skin a ray meets it, in pixels. The skin's function tells no more than the distance, and down to
-/// some 0.4 of it along a slim ellipsoid.
-pub const NEAR: f64 = 0.25;
+/// The shortest step in a crown, in pixels.
+pub const PLANT_STEP: f64 = 0.25;
+
+/// After how many steps the shortest one begins to grow, so that a ray along a crown's skin gets on.
+pub const PLANT_PATIENCE: u32 = 24;
+
+/// How much it grows with each step.
+pub const PLANT_HURRY: f64 = 1.1;
 
 /// A pixel's width along a ray, in metres: `start` at the ray's origin, and `growth` more for each metre.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,8 +48,8 @@ pub struct PlantWork {
 
 impl<T: Real> Solid<T> {
     /// Where, within `range`, a ray first meets the plant, and what of it. `direction` is of unit length, and `footprint` a
-    /// pixel's width there, in metres, above 0. Steps are as long as the bound of the crown's function allows, and at most
-    /// [`PLANT_STEPS`]: a ray that runs out of them goes along the skin, and counts as met.
+    /// pixel's width there, in metres, above 0. Steps are as long as the bound of the crown's function allows, but no shorter
+    /// than [`PLANT_STEP`], and more after [`PLANT_PATIENCE`] of them: what is passed over is thinner than a step.
     pub fn cast(
         &self,
         origin: [T; 3],
@@ -69,20 +74,27 @@ impl<T: Real> Solid<T> {
             return hit;
         }
         let level = self.level(footprint);
-        let near = T::of(NEAR) * footprint;
-        let pace = T::ONE / (self.slope(level) * dot(d, d).sqrt());
-        for _ in 0..PLANT_STEPS {
+        let length = dot(d, d).sqrt();
+        let pace = T::ONE / (self.slope(level) * length);
+        let mut least = T::of(PLANT_STEP) * footprint / length;
+        // The step that led here, and the function before it.
+        let (mut step, mut before) = (T::ZERO, T::ONE);
+        for i in 0..PLANT_STEPS {
             work.steps += 1;
             let f = self.crown(core::array::from_fn(|k| o[k] + t * d[k]), level);
-            if f < near {
-                break;
+            if f < T::ZERO {
+                return Some((t + step * f / (before - f), Part::Crown));
             }
-            t += f * pace;
+            if i >= PLANT_PATIENCE {
+                least *= T::of(PLANT_HURRY);
+            }
+            (step, before) = (least.max(f * pace), f);
+            t += step;
             if t > leave {
                 return hit;
             }
         }
-        Some((t, Part::Crown))
+        hit
     }
 }
 

@@ -80,13 +80,17 @@ impl<'a> Grove<'a> {
         plants[(z * TILE + x) as usize]
     }
 
-    /// The nearest plant that a ray meets within `t_max` metres. The ray's x and z are metres from `place`, its y is the height
-    /// above the world's zero; the ground is not in its way, and nothing farther than [`FARTHEST`] is looked at.
+    /// The nearest plant that a ray meets within `t_max` metres, proven as [`Solid::truth`] proves it. The ray's x and z are
+    /// metres from `place`, its y is the height above the world's zero; the ground is not in its way, and nothing farther than
+    /// [`FARTHEST`] is looked at. `cone` says how fine the foliage is.
     pub fn cast(&mut self, place: &Place, ray: &Ray, t_max: f64, cone: Cone) -> Option<PlantHit> {
-        self.cast_as::<f64>(place, ray, t_max, cone, &mut PlantWork::default())
+        let each = |solid: &Solid<f64>, start, direction, range, footprint, _: &mut PlantWork| {
+            solid.truth(start, direction, range, footprint)
+        };
+        self.search(place, ray, t_max, cone, &mut PlantWork::default(), each)
     }
 
-    /// The same, computed within each dual cell in `T`, and with its work counted.
+    /// The same as the picture has it, by [`Solid::cast`]: computed within each dual cell in `T`, and with its work counted.
     pub fn cast_as<T: Real>(
         &mut self,
         place: &Place,
@@ -94,6 +98,19 @@ impl<'a> Grove<'a> {
         t_max: f64,
         cone: Cone,
         work: &mut PlantWork,
+    ) -> Option<PlantHit> {
+        self.search(place, ray, t_max, cone, work, Solid::<T>::cast)
+    }
+
+    /// Walks the dual cells, and asks `each` of four plants.
+    fn search<T: Real>(
+        &mut self,
+        place: &Place,
+        ray: &Ray,
+        t_max: f64,
+        cone: Cone,
+        work: &mut PlantWork,
+        each: impl Fn(&Solid<T>, [T; 3], [T; 3], [T; 2], T, &mut PlantWork) -> Option<(T, Part)>,
     ) -> Option<PlantHit> {
         let spacing = self.spacing();
         let (base, within) = cell_of(place, spacing);
@@ -125,7 +142,7 @@ impl<'a> Grove<'a> {
                 let solid = self.solid::<T>(&plant, foot);
                 let footprint = T::of(cone.at(enter + solid.depth(start, direction).f64()));
                 let end = nearest.as_ref().map_or(T::of(leave - enter), |(t, ..)| *t);
-                if let Some((t, part)) = solid.cast(start, direction, [T::ZERO, end], footprint, work) {
+                if let Some((t, part)) = each(&solid, start, direction, [T::ZERO, end], footprint, work) {
                     nearest = Some((t, part, plant));
                 }
             }

@@ -1,6 +1,6 @@
 //! Rival ways to find the plant that a ray meets: what the walk through the dual cells is measured against.
 
-use super::cast::{Cone, NEAR, PlantWork};
+use super::cast::{Cone, PlantWork};
 use super::cells::cell_of;
 use super::foliage::Foliage;
 use super::grove::Grove;
@@ -10,6 +10,9 @@ use crate::march::Ray;
 
 /// Steps of a ray, at most.
 pub const RIVAL_STEPS: u32 = 4000;
+
+/// How near to a plant a ray meets it, in pixels.
+const NEAR: f64 = 0.25;
 
 /// What a rival takes for the distance from an ellipsoid, with k₀ = ‖p / r‖ and k₁ = ‖p / r²‖.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

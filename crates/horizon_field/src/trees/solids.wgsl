@@ -16,9 +16,12 @@
 
 const PLANT_STANDS: u32 = 1u;
 const PLANT_ELLIPSOIDS: u32 = 4u;
-const PLANT_STEPS: u32 = 96u;
-// How near to a crown's skin a ray meets it, in pixels.
-const PLANT_NEAR: f32 = 0.25;
+const PLANT_STEPS: u32 = 160u;
+// The shortest step in a crown, in pixels; after how many steps it begins to grow, so that a ray along the skin gets on; and
+// how much, with each step.
+const PLANT_STEP: f32 = 0.25;
+const PLANT_PATIENCE: u32 = 24u;
+const PLANT_HURRY: f32 = 1.1;
 // Texels along the foliage table's edge, and its coarsest mip.
 const PLANT_TEXELS: f32 = 64.0;
 const PLANT_COARSEST: f32 = 6.0;
@@ -274,7 +277,8 @@ fn plant_trunk_normal(solid: PlantSolid, p: vec3<f32>) -> vec3<f32> {
     return plant_gradient_out(solid, (plant_own(solid, p) - e.centre) / (e.radii * e.radii));
 }
 
-// Where, within `range`, a ray first meets a solid, and what: `footprint` is a pixel's width there, in metres.
+// Where, within `range`, a ray first meets a solid, and what: `footprint` is a pixel's width there, in metres. What is passed
+// over is thinner than the shortest step.
 fn plant_cast(solid: PlantSolid, origin: vec3<f32>, direction: vec3<f32>, range: vec2<f32>, footprint: f32) -> PlantHit {
     var hit = PlantHit(range.y, PLANT_NOTHING, vec2<i32>(0));
     let o = plant_own(solid, origin);
@@ -304,21 +308,29 @@ fn plant_cast(solid: PlantSolid, origin: vec3<f32>, direction: vec3<f32>, range:
         return hit;
     }
     let level = plant_level(solid.species, footprint);
-    let near = PLANT_NEAR * footprint;
-    let pace = 1.0 / (plant_slope(solid, level) * length(d));
+    let per_metre = 1.0 / length(d);
+    let pace = per_metre / plant_slope(solid, level);
+    var least = PLANT_STEP * footprint * per_metre;
     var t = enter;
-    for (var step = 0u; step < PLANT_STEPS; step++) {
+    // The step that led here, and the function before it.
+    var step = 0.0;
+    var before = 1.0;
+    for (var i = 0u; i < PLANT_STEPS; i++) {
         let f = plant_crown(solid, o + t * d, level);
-        if f < near {
-            break;
+        if f < 0.0 {
+            return PlantHit(t + step * f / (before - f), PLANT_CROWN, vec2<i32>(0));
         }
-        t += f * pace;
+        if i >= PLANT_PATIENCE {
+            least *= PLANT_HURRY;
+        }
+        step = max(least, f * pace);
+        before = f;
+        t += step;
         if t > leave {
             return hit;
         }
     }
-    // A ray that has run out of steps goes along the crown's skin: it counts as met.
-    return PlantHit(t, PLANT_CROWN, vec2<i32>(0));
+    return hit;
 }
 
 // The nearest hit among the four plants that can reach into a dual cell: the square, half a cell off, around the corner that the

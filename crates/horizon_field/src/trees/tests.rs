@@ -1,6 +1,5 @@
 //! Tests.
 
-#[cfg(feature = "baselines")]
 mod casting;
 mod foliage;
 #[cfg(feature = "baselines")]

@@ -24,6 +24,14 @@ struct Direction {
     weight: f32,
 }
 
+// A ray: its altitude, in metres; the cosines of vertical and ray, vertical and sun, ray and sun.
+struct SkyRay {
+    h: f32,
+    mu: f32,
+    mu_s: f32,
+    nu: f32,
+}
+
 fn direction(air: Medium, h: f32, mu_s: f32, index: u32) -> Direction {
     let ground = index >= 24u;
     var polar = POLAR;

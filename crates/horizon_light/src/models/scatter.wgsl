@@ -6,13 +6,6 @@
 const VIEW_STEPS: u32 = 16u;
 
 // A ray under a sun: altitude, and the cosines vertical-ray, vertical-sun and ray-sun.
-struct SkyRay {
-    h: f32,
-    mu: f32,
-    mu_s: f32,
-    nu: f32,
-}
-
 struct Scattered {
     // Radiance but for mie.
     soft: vec3<f32>,

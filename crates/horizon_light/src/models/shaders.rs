@@ -15,6 +15,9 @@ pub const BASE: &str = concat!(
 pub const SCATTER: &str =
     concat!(include_str!("transmittance.wgsl"), include_str!("scatter.wgsl"), include_str!("directions.wgsl"));
 
+/// Rays, and their directions relative to the sun; needs nothing. In [`SCATTER`] too.
+pub const DIRECTIONS: &str = include_str!("directions.wgsl");
+
 /// Reading transmittance alone, after [`BASE`].
 pub const TRANSMITTANCE: &str = include_str!("transmittance.wgsl");
 
@@ -39,7 +42,7 @@ pub const ISOTROPIC_COMPUTE: &str = include_str!("isotropic_compute.wgsl");
 /// How the sky view is made, with any model; goes with [`SKY_VIEW`].
 pub const SKY_VIEW_COMPUTE: &str = include_str!("sky_view_compute.wgsl");
 
-/// Drawing from the sky view, after [`BASE`]. Reads the sky view.
+/// Drawing from the sky view, after [`BASE`] and [`DIRECTIONS`] or [`SCATTER`]. Reads the sky view.
 pub const SKY_VIEW: &str = include_str!("sky_view.wgsl");
 
 /// Single scattering over flat ground, after [`BASE`] and [`SCATTER`].

@@ -48,8 +48,8 @@ fn seen<T: Light>(m: T, w: T) -> T {
 /// Mean reflectance of a rough surface, 0 … 1: Fresnel's over the facets that are seen. `cosine` is that between view and mean
 /// normal, 0 … 1; `variance` that of the slopes, along the view (of both axes, where they are alike).
 ///
-/// Fresnel's own formula at an effective cosine: the mean E[m²]/E[m] over facets seen, lowered for the formula's bow. The fit is off
-/// the integral by at most [`FIT_ERROR`], where Bruneton, Neyret and Holzschuch's (2010) is by 0.11, for it builds on Schlick's.
+/// Fresnel's own formula at an effective cosine: the mean of m² over that of m, of facets seen, lowered for the formula's bow. The fit is off
+/// the integral by at most [`FIT_ERROR`], where Bruneton, Neyret and Holzschuch's (2010) is by 0.10, for it builds on Schlick's.
 #[inline]
 pub fn reflectance<T: Light>(cosine: T, variance: T, index: T) -> T {
     let c = cosine.clamp(T::ZERO, T::ONE);

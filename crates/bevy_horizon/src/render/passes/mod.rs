@@ -8,6 +8,7 @@ mod geometry;
 mod pipelines;
 mod shade;
 mod target;
+mod tree_motion;
 mod trees;
 mod water;
 

@@ -159,8 +159,13 @@ pub fn prepare_shade(
         };
         let air = matches!(ground.sky, Some(ViewSky::Air { .. }));
         let trees = grove.is_some_and(|grove| grove.grown);
-        let variant = Variant { deferred, multisampled: msaa.samples() > 1, air, trees };
-        let pipeline = pipelines.get(&cache, bevy, key, variant);
+        let mut variant = Variant { deferred, multisampled: msaa.samples() > 1, air, trees };
+        let mut pipeline = pipelines.get(&cache, bevy, key, variant);
+        if trees && cache.get_render_pipeline(pipeline).is_none() {
+            // While that with plants compiles, the ground is lit without.
+            variant.trees = false;
+            pipeline = pipelines.get(&cache, bevy, key, variant);
+        }
         if deferred && cache.get_render_pipeline(pipeline).is_some() {
             // Bevy's own pass, which it asks for in each frame, would light the same once more. Until ours is there, it does.
             commands.entity(entity).remove::<DeferredLightingPipeline>();

@@ -1,7 +1,8 @@
 //! Plants: found by a ray a pixel, and lit by Bevy's own functions, after the ground was lit and before Bevy's opaque meshes are drawn;
-//! sorted by depth among both.
+//! sorted by depth among both. Where a view has a prepass, they are brought into its depth and motion vectors.
 
 use bevy::core_pipeline::core_3d::CORE_3D_DEPTH_FORMAT;
+use bevy::core_pipeline::prepass::{MotionVectorPrepass, ViewPrepassTextures};
 use bevy::ecs::query::QueryData;
 use bevy::pbr::deferred::DeferredLightingLayout;
 use bevy::pbr::{MeshPipelineKey, MeshViewBindGroup, ViewKeyCache};
@@ -32,6 +33,7 @@ use super::super::trees::{FoliageTexture, GroveUniform, Groves, ViewGrove};
 use super::super::uniforms::{AirUniform, ClipmapUniform, HorizonViewUniform};
 use super::super::view::{HorizonViews, ViewGround, ViewSky};
 use super::target::DrawnTarget;
+use super::tree_motion::{TreeMotion, copy_depth};
 use crate::camera::DebugView;
 
 /// What decides which text the shader has, and what is bound.
@@ -72,6 +74,7 @@ impl Variant {
 pub struct TreePipelines {
     made: HashMap<(MeshPipelineKey, Variant), CachedRenderPipelineId>,
     foliage: Option<FoliageTexture>,
+    motion: TreeMotion,
 }
 
 impl TreePipelines {
@@ -123,6 +126,8 @@ pub struct ViewTrees {
     /// What was drawn before them: a ray needs to go no farther.
     depth: CachedTexture,
     group: Option<BindGroup>,
+    /// Of views that keep motion vectors.
+    motion: Option<BindGroup>,
 }
 
 type Views<'w, 's> = Query<
@@ -136,6 +141,7 @@ type Views<'w, 's> = Query<
         &'static ExtractedHorizonCamera,
         &'static ExtractedCamera,
         &'static Msaa,
+        Has<MotionVectorPrepass>,
         Has<ViewTrees>,
     ),
 >;
@@ -152,7 +158,7 @@ pub fn prepare_trees(
     queue: Res<RenderQueue>,
     views: Views,
 ) {
-    for (entity, ground, grove, view, camera, extracted, msaa, had) in &views {
+    for (entity, ground, grove, view, camera, extracted, msaa, moves, had) in &views {
         let grown = grove.is_some_and(|grove| grove.grown) && camera.camera.debug == DebugView::None;
         let key = keys.get(&view.retained_view_entity).filter(|_| grown);
         let (Some(&key), Some(bevy), Some(size)) = (key, &bevy, extracted.physical_target_size) else {
@@ -165,6 +171,9 @@ pub fn prepare_trees(
         let variant = Variant { multisampled: msaa.samples() > 1, air };
         let pipeline = pipelines.get(&cache, bevy, key, variant);
         pipelines.foliage.get_or_insert_with(|| FoliageTexture::new(&device, &queue));
+        if moves && !variant.multisampled {
+            pipelines.motion.queue(&cache);
+        }
         let copy = TextureDescriptor {
             label: Some("horizon_depth_before_trees"),
             size: Extent3d { width: size.x, height: size.y, depth_or_array_layers: 1 },
@@ -177,12 +186,12 @@ pub fn prepare_trees(
             view_formats: &[],
         };
         let depth = textures.get(&device, copy);
-        commands.entity(entity).insert(ViewTrees { variant, pipeline, depth, group: None });
+        commands.entity(entity).insert(ViewTrees { variant, pipeline, depth, group: None, motion: None });
     }
 }
 
 pub fn bind_trees(
-    mut views: Query<(&mut ViewTrees, &ViewGround, &ViewGrove)>,
+    mut views: Query<(&mut ViewTrees, &ViewGround, &ViewGrove, &ViewDepthTexture, Has<MotionVectorPrepass>)>,
     uniforms: Res<HorizonViews>,
     caches: Res<Caches>,
     groves: Res<Groves>,
@@ -191,7 +200,7 @@ pub fn bind_trees(
     cache: Res<PipelineCache>,
     device: Res<RenderDevice>,
 ) {
-    for (mut trees, ground, seen) in &mut views {
+    for (mut trees, ground, seen, now, moves) in &mut views {
         let buffers = ground.cache.and_then(|index| caches.0.get(index)).map(|cache| &cache.buffers);
         let (Some(buffers), Some(grove), Some(foliage)) = (buffers, groves.0.get(seen.grove), &pipelines.foliage)
         else {
@@ -203,7 +212,7 @@ pub fn bind_trees(
             (1, buffers.heights.as_entire_binding()),
             (2, &trees.depth.default_view),
             (3, buffers.looks.as_entire_binding()),
-            (5, view),
+            (5, view.clone()),
             (6, seen.window.as_entire_binding()),
             (7, grove.tiles.as_entire_binding()),
             (8, grove.forest.as_entire_binding()),
@@ -223,6 +232,10 @@ pub fn bind_trees(
         }
         let layout = cache.get_bind_group_layout(&trees.variant.layout());
         let group = device.create_bind_group("horizon_trees", &layout, &entries);
+        if moves && !trees.variant.multisampled {
+            let motion = pipelines.motion.bind(&trees.depth.default_view, now.view(), view, &cache, &device);
+            trees.motion = Some(motion);
+        }
         trees.group = Some(group);
     }
 }
@@ -236,11 +249,17 @@ pub struct GrownView {
     trees: &'static ViewTrees,
     ground: &'static ViewGround,
     bevy: &'static MeshViewBindGroup,
+    prepass: Option<&'static ViewPrepassTextures>,
 }
 
 /// Draws a view's plants.
-pub fn draw_trees(view: ViewQuery<GrownView>, pipelines: Res<PipelineCache>, mut ctx: RenderContext) {
-    let GrownViewItem { drawn, target, depth, trees, ground, bevy } = view.into_inner();
+pub fn draw_trees(
+    view: ViewQuery<GrownView>,
+    own: Res<TreePipelines>,
+    pipelines: Res<PipelineCache>,
+    mut ctx: RenderContext,
+) {
+    let GrownViewItem { drawn, target, depth, trees, ground, bevy, prepass } = view.into_inner();
     let Some((pipeline, group)) = pipelines.get_render_pipeline(trees.pipeline).zip(trees.group.as_ref()) else {
         return;
     };
@@ -263,12 +282,19 @@ pub fn draw_trees(view: ViewQuery<GrownView>, pipelines: Res<PipelineCache>, mut
     if let Some(viewport) = drawn.viewport() {
         pass.set_camera_viewport(&viewport);
     }
-    let [own, air, _] = ground.offsets;
-    let offsets = [own, air];
+    let [seen, air, _] = ground.offsets;
+    let offsets = [seen, air];
     pass.set_render_pipeline(pipeline);
     pass.set_bind_group(0, &bevy.main, &bevy.main_offsets);
     pass.set_bind_group(1, &bevy.binding_array, &[]);
     pass.set_bind_group(2, group, &offsets[..1 + usize::from(trees.variant.air)]);
     pass.draw(0..3, 0..1);
     span.end(&mut pass);
+    drop(pass);
+    if let Some(textures) = prepass {
+        copy_depth(depth, textures, &mut ctx);
+        if let Some(group) = &trees.motion {
+            own.motion.draw(&drawn, textures, group, seen, &pipelines, &mut ctx);
+        }
+    }
 }

@@ -297,6 +297,8 @@ pub fn bind_waters(
                 )));
             }
         }
+        // wgpu checks dynamic offsets in the order of the entries, and takes them in that of the bindings.
+        entries.sort_by_key(|entry| entry.binding);
         let layout = cache.get_bind_group_layout(&variant.layout());
         let group = device.create_bind_group("horizon_water", &layout, &entries);
         water.group = Some(group);

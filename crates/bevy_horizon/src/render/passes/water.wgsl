@@ -65,24 +65,28 @@ struct Behind {
     light: vec3<f32>,
 }
 
-// The light in the water under a point of its surface.
-fn light_in(body: u32, o: vec3<f32>, position: vec4<f32>) -> WaterLight {
-    let sun = view.sun * sun_over_water(o, position);
-    return water_lit(waters.bodies[body].optics, view.sun_direction, sun, WATER_PI * skylight_on_level());
+// The light in the water under a surface that gets so much of the sun.
+fn light_in(body: u32, sun_seen: f32) -> WaterLight {
+    return water_lit(waters.bodies[body].optics, view.sun_direction, view.sun * sun_seen, WATER_PI * skylight_on_level());
 }
 
-// How bright the bed is under so much water, as a part of how bright it would be in air.
+// How bright the bed is under so much water, as a part of how bright it would be in air. What shades the bed is in its colour.
 fn bed_light(body: u32, o: vec3<f32>, under: f32, light: WaterLight) -> vec3<f32> {
     let optics = waters.bodies[body].optics;
-    var lit = light;
+    // A night's lamps need a ratio too.
+    let sky = WATER_PI * skylight_on_level() + vec3<f32>(1e-6);
+    var lit = water_lit(optics, view.sun_direction, view.sun, sky);
     if (under < 40.0) {
         // Sunlight crossed the surface there. The deeper the bed, the wider the waves that gather light on it.
-        let crossed = o.xz + light.sun.xz / light.sun.y * under;
+        let crossed = o.xz + lit.sun.xz / lit.sun.y * under;
         let bend = wave_bend(body, crossed, 0.05 + 0.02 * under + 2.0 * footprint_at(length(o)));
-        lit.sun_irradiance *= water_focus(bend.xzy, under / light.sun.y, optics.index, 3.0);
+        let focus = water_focus(bend.xzy, under / lit.sun.y, optics.index, 3.0);
+        // None where the surface is in shadow.
+        let sunny = clamp(light.sun_irradiance.y / max(lit.sun_irradiance.y, 1e-6), 0.0, 1.0);
+        lit.sun_irradiance *= mix(1.0, focus, sunny);
     }
-    let open = view.sun * max(view.sun_direction.y, 0.0) + WATER_PI * skylight_on_level();
-    return clamp(water_irradiance(optics, lit, under) / max(open, vec3<f32>(1e-6)), vec3<f32>(0.0), vec3<f32>(4.0));
+    let open = view.sun * max(view.sun_direction.y, 0.0) + sky;
+    return clamp(water_irradiance(optics, lit, under) / open, vec3<f32>(0.0), vec3<f32>(4.0));
 }
 
 // Along a path in the water, from `start` on to what was drawn at `to`, or without end: radiance where it starts.
@@ -118,10 +122,20 @@ struct Painted {
     @builtin(frag_depth) depth: f32,
 }
 
-// Light of its own, in cd/m², over what was drawn, exposed.
+// Light of its own, in cd/m², over what was drawn, exposed. A half float ends at 65 504.
 fn painted(own: vec3<f32>, colour: vec3<f32>, share: vec3<f32>, depth: f32) -> Painted {
     let shown = water_present(vec4<f32>(min(own * view.exposure, vec3<f32>(6e4)), 1.0)).rgb;
-    return Painted(vec4<f32>(shown + colour * share, 1.0), depth);
+    return Painted(vec4<f32>(min(shown + colour * share, vec3<f32>(6e4)), 1.0), depth);
+}
+
+// The farthest and the nearest depth of a pixel's samples.
+fn drawn_depths(at: vec2<i32>) -> vec2<f32> {
+    var depths = vec2<f32>(depth_at(at, 0));
+    for (var i = 1; i < depth_samples(); i++) {
+        let depth = depth_at(at, i);
+        depths = vec2<f32>(min(depths.x, depth), max(depths.y, depth));
+    }
+    return depths;
 }
 
 // Foam where waves break and where they run up the shore, in clumps.
@@ -164,11 +178,11 @@ fn seen_from_air(pixel: WaterPixel, position: vec4<f32>, met: Met, depth: f32, t
     mirrored.y = abs(mirrored.y) + 1.2 * sqrt(mean) * (1.0 - cosine) * (1.0 - cosine);
     mirrored = normalize(mirrored);
 
-    let light = light_in(body, o, position);
+    let sun_seen = sun_over_water(o, position);
+    let light = light_in(body, sun_seen);
     let ground = shoal_at(body, o, footprint);
     let edge = smoothstep(0.0, 0.06 + footprint, min(ground, t_scene - t));
     let reflected = mirrored_light(body, o, mirrored, position);
-    let sun_seen = sun_over_water(o, position);
     let glitter = water_glitter(v, view.sun_direction, normal, variance, waters.sun_radius, optics.index) * view.sun * sun_seen;
 
     // What is refracted, looked for on the screen: where that is not under water, straight behind.
@@ -200,17 +214,18 @@ fn seen_from_air(pixel: WaterPixel, position: vec4<f32>, met: Met, depth: f32, t
     return painted(own * edge, drawn_colour(behind_at), mix(vec3<f32>(1.0), share, edge), water_depth_of(pixel, t));
 }
 
-fn seen_from_within(pixel: WaterPixel, position: vec4<f32>, body: u32, met: Met, depth: f32) -> Painted {
+// `nearest`: of the pixel's samples. All of them are under water, and take the one colour.
+fn seen_from_within(pixel: WaterPixel, position: vec4<f32>, body: u32, met: Met, depth: f32, nearest: f32) -> Painted {
     let optics = waters.bodies[body].optics;
     let start = water_point(pixel.ray, pixel.t_near);
     let d = pixel.ray.direction;
-    let light = light_in(body, start, position);
+    let light = light_in(body, sun_over_water(start, position));
     if (met.t < 0.0) {
         // Down to the bed, or into the deep.
         let endless = depth <= 0.0;
         let to = drawn_at(position.xy, max(depth, 1e-12));
         let behind = through_water(body, start, to, endless, d, drawn_colour(position.xy), light);
-        return painted(behind.light, behind.colour, behind.share, max(depth, water_depth_of(pixel, 200.0)));
+        return painted(behind.light, behind.colour, behind.share, max(nearest, water_depth_of(pixel, 200.0)));
     }
     let o = water_point(pixel.ray, met.t);
     let footprint = footprint_at(met.t);
@@ -248,21 +263,23 @@ fn seen_from_within(pixel: WaterPixel, position: vec4<f32>, body: u32, met: Met,
             own += enters * (sky_from(out) + sun);
         }
     }
-    return painted(own, colour, share, water_depth_of(pixel, met.t));
+    return painted(own, colour, share, max(nearest, water_depth_of(pixel, met.t)));
 }
 
 @fragment
 fn water(@builtin(position) position: vec4<f32>) -> Painted {
     let pixel = water_pixel(position);
-    let depth = depth_at(vec2<i32>(position.xy), 0);
+    // The farthest: what stands before the water in some samples only keeps these by its own depth.
+    let depths = drawn_depths(vec2<i32>(position.xy));
+    let depth = depths.x;
     var t_scene = UNSEEN;
     if (depth > 0.0) {
         t_scene = distance(view_point(ndc_of(position), depth), pixel.local_start);
     }
     let body = water_around(water_point(pixel.ray, pixel.t_near), footprint_at(pixel.t_near));
-    let met = meets_water(pixel.ray, pixel.t_near, t_scene);
+    let met = meets_water(pixel.ray, pixel.t_near, t_scene, body);
     if (body < BODIES) {
-        return seen_from_within(pixel, position, body, met, depth);
+        return seen_from_within(pixel, position, body, met, depth, depths.y);
     }
     if (met.t < 0.0) {
         discard;

@@ -120,10 +120,13 @@ fn water_around(p: vec3<f32>, footprint: f32) -> u32 {
 fn meets_body(body: u32, ray: WaterRay, t_near: f32, t_end: f32) -> f32 {
     let above = waters.bodies[body].above + ray.start.y;
     let fall = ray.direction.y;
-    let bound = waters.bodies[body].bound;
+    let highest = waters.bodies[body].bound;
+    // Half floats and single precision round crests up: none may stand out of the slab.
+    let bound = 1.002 * highest + select(0.0, 1e-6 * abs(above), highest > 0.0);
     let inside = outline_interval(body, ray);
+    let last_t = min(t_end, inside.y);
     var t0 = max(t_near, inside.x);
-    var t1 = min(t_end, inside.y);
+    var t1 = last_t;
     if (t0 > t1) {
         return -1.0;
     }
@@ -141,8 +144,8 @@ fn meets_body(body: u32, ray: WaterRay, t_near: f32, t_end: f32) -> f32 {
         }
         // Waves that move the surface by less than half a pixel have no shape of their own.
         let plane = -above / fall;
-        if (bound < 0.5 * footprint_at(plane)) {
-            return select(-1.0, plane, plane >= max(t_near, inside.x) && plane <= min(t_end, inside.y));
+        if (highest < 0.5 * footprint_at(plane)) {
+            return select(-1.0, plane, plane >= max(t_near, inside.x) && plane <= last_t);
         }
     }
     let level = length(ray.direction.xz) * waters.bodies[body].slope + abs(fall);
@@ -170,14 +173,18 @@ fn meets_body(body: u32, ray: WaterRay, t_near: f32, t_end: f32) -> f32 {
             return mix(a.x, b.x, clamp(abs(a.y) / max(abs(a.y - b.y), 1e-20), 0.0, 1.0));
         }
         if (next >= t1) {
+            // What ended the ray there stands over a trough, or is the outline; below the slab it is under water, within rounding.
+            if (t1 >= last_t) {
+                return -1.0;
+            }
             break;
         }
         t = next;
         last = f;
     }
-    // Through the slab within rounding, or out of steps: the level itself.
-    let plane = -above / select(fall, 1e-9, abs(fall) < 1e-9);
-    return select(-1.0, plane, side * fall < 0.0 && plane >= t_near && plane <= min(t_end, inside.y));
+    // Through the slab within rounding, or out of steps: the level itself, or where the ray is below that by now.
+    let plane = max(-above / select(fall, 1e-9, abs(fall) < 1e-9), t);
+    return select(-1.0, plane, side * fall < 0.0 && plane >= t_near && plane <= last_t);
 }
 
 struct Met {
@@ -185,11 +192,14 @@ struct Met {
     body: u32,
 }
 
-// The nearest surface.
-fn meets_water(ray: WaterRay, t_near: f32, t_end: f32) -> Met {
+// The nearest surface; that of one body alone, where `alone` is one.
+fn meets_water(ray: WaterRay, t_near: f32, t_end: f32, alone: u32) -> Met {
     var met = Met(-1.0, BODIES);
     var end = t_end;
     for (var i = 0u; i < waters.count; i++) {
+        if (alone < BODIES && i != alone) {
+            continue;
+        }
         let t = meets_body(i, ray, t_near, end);
         if (t >= 0.0) {
             met = Met(t, i);

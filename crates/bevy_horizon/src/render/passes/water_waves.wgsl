@@ -40,7 +40,8 @@ fn wave_shape(body: u32, at: vec2<f32>, along: vec2<f32>, across: vec2<f32>) -> 
         let m = textureSampleGrad(wave_moments, wave_sampler, uv, cascade.layer, dx, dy);
         shape.slope += s.yz;
         shape.variance += max(m.xy - s.yz * s.yz, vec2<f32>(0.0));
-        shape.foam = max(shape.foam, s.w);
+        // Crests draw together long before they break.
+        shape.foam = max(shape.foam, smoothstep(0.35, 0.75, s.w));
     }
     return shape;
 }

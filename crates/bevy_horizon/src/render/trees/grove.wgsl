@@ -30,7 +30,7 @@ const GROVE_TILE: u32 = 32u;
 // In vectors of four words: a tile's plants, and those with the base and the unit of its bounds, in metres, and then a word a node.
 const GROVE_BOUNDS: u32 = 2048u;
 const GROVE_STRIDE: u32 = 2391u;
-const GROVE_STEPS: u32 = 384u;
+const GROVE_STEPS: u32 = 768u;
 
 fn grove_index(cell: vec2<i32>) -> vec2<u32> {
     return vec2<u32>(grove.base + cell) & vec2<u32>(grove.side * GROVE_TILE - 1u);

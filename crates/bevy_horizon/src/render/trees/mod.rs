@@ -7,7 +7,6 @@ mod window;
 
 use std::sync::Arc;
 
-use bevy::math::Vec3Swizzles;
 use bevy::prelude::*;
 use bevy::render::camera::ExtractedCamera;
 use bevy::render::render_resource::{Buffer, BufferDescriptor, BufferInitDescriptor, BufferUsages, ShaderType, encase};
@@ -70,7 +69,7 @@ struct Filled {
 
 /// The groves of all terrains and cameras. A resource of the render world.
 #[derive(Resource, Default)]
-pub(crate) struct Groves(pub Vec<Grove>);
+pub struct Groves(pub(crate) Vec<Grove>);
 
 /// What a view sees of plants. A view that sees none has no such component.
 #[derive(Component)]

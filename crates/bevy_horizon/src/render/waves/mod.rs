@@ -27,8 +27,8 @@ pub const MOST_SEAS: usize = 4;
 #[derive(Resource, Default)]
 pub struct ExtractedSeas(pub Vec<Arc<Sea>>);
 
-/// The tiles of all seas, as shaders read them. A resource of the render world, while there are seas that move; others than in the
-/// frame before when the seas are. Flat until their pipelines are ready.
+/// The tiles of all seas, as shaders read them. A resource of the render world, while there are seas that move; replaced when these
+/// change. Flat until their pipelines are ready.
 ///
 /// Each texture has `GRID` texels to a side, all levels of means, and the layer `CASCADES` × sea + tile. A place (x, z) is at the
 /// coordinates (x, z) / side.

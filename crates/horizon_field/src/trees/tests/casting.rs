@@ -1,10 +1,12 @@
 //! The walk through the dual cells, against all plants and against the truth.
 
+use super::placement::cliff;
 use super::truths::rays;
 use super::{World, dense, hills, ray};
 use crate::Place;
+use crate::field::Noise;
 use crate::field::arbitrary::Random;
-use crate::trees::{Cone, DualCells, Grove, Part, PlantWork, Wind, nearest_truth};
+use crate::trees::{Cone, DualCells, Forest, Grove, Part, PlantWork, Wind, nearest_truth};
 use crate::truth::{Projection, TruthCamera};
 
 #[test]
@@ -32,25 +34,35 @@ fn dual_cells_follow_one_another_and_hold_the_ray() {
     }
 }
 
+/// Worlds that make it hard: crowns across all borders, far from the origin, on cliffs, at the edges of groves and at the
+/// shore.
+fn worlds() -> Vec<(World, Place)> {
+    let far = Place::new([244_140, 0, -244_141], [100.0, 0.0, 4000.0]);
+    let grove = Noise { wavelength: 40.0, amplitude: 1.0, seed: 4, ..Noise::default() };
+    let edges = Forest { density: grove.into(), ..dense() };
+    let near = World::new(&hills(), &dense()).height(&Place::ORIGIN);
+    let shore = Forest { level: near - 2.0, shore: 0.5, ..dense() };
+    vec![
+        (World::new(&hills(), &dense()), Place::ORIGIN),
+        (World::new(&hills(), &dense()), far),
+        (World::new(&cliff(), &dense()), Place::ORIGIN),
+        (World::new(&hills(), &edges), Place::ORIGIN),
+        (World::new(&hills(), &shore), Place::ORIGIN),
+    ]
+}
+
 #[test]
 fn four_plants_in_each_dual_cell_are_as_good_as_all() {
-    let mut forest = dense();
-    // Then crowns are ellipsoids, hit in closed form: what is compared is which plants are looked at.
-    forest.species.iter_mut().for_each(|species| species.foliage = 0.0);
-    for place in [Place::ORIGIN, Place::new([244_140, 0, -244_141], [100.0, 0.0, 4000.0])] {
-        let world = World::new(&hills(), &forest);
+    for (world, place) in worlds() {
         let mut grove = Grove::new(&world.planting, world.ground(), &world.felled);
-        let solids = world.solids(&place, 120.0);
+        let solids = world.solids(&place, 75.0);
         let (mut hits, mut across) = (0, 0);
-        for ray in rays(11, 4000, 40.0) {
-            let found = grove.cast(&place, &ray, 60.0, Cone::FINE);
-            let all = solids.iter().filter_map(|solid| {
-                solid.cast(ray.origin(), ray.direction(), [0.0, 60.0], 1e-4, &mut PlantWork::default())
-            });
-            let all = all.min_by(|a, b| a.0.total_cmp(&b.0));
+        for ray in rays(&world, &place, 11, 1500, 20.0) {
+            let found = grove.cast(&place, &ray, 45.0, Cone::FINE);
+            let all = nearest_truth(&solids, ray.origin(), ray.direction(), 45.0, Cone::FINE);
             assert_eq!(found.is_some(), all.is_some(), "{found:?} for {all:?}");
-            if let (Some(found), Some((t, part))) = (found, all) {
-                assert!((found.t - t).abs() < 1e-6 && found.part == part, "{found:?} for {t}");
+            if let (Some(found), Some((_, t, part))) = (found, all) {
+                assert!((found.t - t).abs() < 1e-5 && found.part == part, "{found:?} for {t}");
                 hits += 1;
                 let [x, _, z] = ray.at(t);
                 across += usize::from(world.planting.cell_of(&place.translated([x, 0.0, z])) != found.plant.id.0);
@@ -58,7 +70,7 @@ fn four_plants_in_each_dual_cell_are_as_good_as_all() {
         }
         println!("{hits} hits, {across} of them in another cell than the plant's");
         // A search of the ray's own cells would lose those.
-        assert!(hits > 2500 && across > 500);
+        assert!(hits > 40 && across > 5);
     }
 }
 
@@ -70,6 +82,8 @@ struct Tally {
     silhouettes: usize,
     missed: usize,
     false_hits: usize,
+    /// Hits more than a pixel's width off.
+    off: usize,
     worst: f64,
 }
 
@@ -123,7 +137,11 @@ fn compare(world: &World, camera: &TruthCamera, far: f64, single: bool, tally: &
             match (found, centre) {
                 (None, Some(_)) => tally.missed += 1,
                 (Some(_), None) => tally.false_hits += 1,
-                (Some(found), Some(t)) => tally.worst = tally.worst.max((found.t - t).abs() / footprint),
+                (Some(found), Some(t)) => {
+                    let error = (found.t - t).abs() / footprint;
+                    tally.off += usize::from(error > 1.0);
+                    tally.worst = tally.worst.max(error);
+                }
                 (None, None) => {}
             }
         }
@@ -140,7 +158,7 @@ fn cameras(count: usize, size: [usize; 2], single: bool) {
     }
     println!("{count} cameras: {tally:?}");
     assert_eq!((tally.missed, tally.false_hits), (0, 0), "{tally:?}");
-    assert!(tally.worst < 6.0 && tally.hits > tally.pixels / 20, "{tally:?}");
+    assert!(tally.off * 1000 <= tally.hits && tally.worst < 12.0 && tally.hits > tally.pixels / 20, "{tally:?}");
     assert!(tally.silhouettes < tally.pixels / 2, "{tally:?}");
 }
 
@@ -151,7 +169,7 @@ fn some_cameras_by_lot_miss_nothing() {
 }
 
 #[test]
-#[ignore = "minutes"]
+#[ignore = "half a minute"]
 fn fifty_cameras_by_lot_miss_nothing() {
     cameras(50, [48, 32], false);
     cameras(50, [48, 32], true);
@@ -165,7 +183,7 @@ fn single_precision_sees_the_same() {
         Grove::new(&world.planting, world.ground(), &world.felled).in_wind(&Wind { sway: [0.1, 0.05], gust: 2.0 });
     let cone = Cone { start: 0.01, growth: 0.002 };
     let (mut apart, mut hits) = (0, 0);
-    for ray in rays(13, 4000, 2000.0) {
+    for ray in rays(&world, &place, 13, 4000, 2000.0) {
         let mut work = PlantWork::default();
         let double = grove.cast_as::<f64>(&place, &ray, 150.0, cone, &mut work);
         let single = grove.cast_as::<f32>(&place, &ray, 150.0, cone, &mut work);
@@ -177,7 +195,7 @@ fn single_precision_sees_the_same() {
         apart += usize::from(!same);
     }
     println!("{apart} of {hits} apart");
-    assert!(hits > 1500 && apart * 200 < hits, "{apart} of {hits}");
+    assert!(hits > 1200 && apart * 200 < hits, "{apart} of {hits}");
 }
 
 #[test]
@@ -190,23 +208,24 @@ fn a_ray_along_the_borders_and_straight_down_loses_nothing() {
     for i in -20..20 {
         let line = f64::from(i) * 0.5 * spacing;
         for (origin, direction) in [
-            ([line, 12.0, -60.0], [0.0, -0.05, 1.0]),
-            ([-60.0, 8.0, line], [1.0, 0.0, 0.0]),
+            ([line, 3.0, -60.0], [0.0, -0.02, 1.0]),
+            ([-60.0, 3.0, line], [1.0, 0.0, 0.0]),
             ([line, 60.0, -line], [0.0, -1.0, 0.0]),
             ([line, 60.0, line], [1e-9, -1.0, 1e-9]),
             ([line, -60.0, line], [0.0, 1.0, 0.0]),
         ] {
-            let ray = ray(origin, direction);
+            let ground = world.height(&Place::from_metres([origin[0], 0.0, origin[2]]));
+            let ray = ray([origin[0], ground + origin[1], origin[2]], direction);
             let found = grove.cast(&Place::ORIGIN, &ray, 120.0, Cone::FINE);
             let truth = nearest_truth(&solids, ray.origin(), ray.direction(), 120.0, Cone::FINE);
             assert_eq!(found.is_some(), truth.is_some(), "{origin:?} {direction:?}");
             if let (Some(found), Some((_, t, _))) = (found, truth) {
-                assert!((found.t - t).abs() < 0.01, "{} for {t}", found.t);
+                assert!((found.t - t).abs() < 1e-5, "{} for {t}", found.t);
                 hits += 1;
             }
         }
     }
-    assert!(hits > 100, "{hits}");
+    assert!(hits > 50, "{hits}");
 }
 
 #[test]
@@ -232,8 +251,46 @@ fn grazing_rays_that_leave_to_the_sky_meet_what_they_graze() {
     for plant in plants.iter().filter(|plant| plant.species == 0) {
         let [x, _, z] = plant.place.minus(&Place::ORIGIN);
         let middle = plant.foot() + 0.6 * f64::from(plant.height);
-        let hit = grove.cast(&Place::ORIGIN, &ray([x - 10.0, middle - 0.5, z], [1.0, 0.4, 0.0]), 300.0, Cone::FINE);
+        let hit = grove.cast(&Place::ORIGIN, &ray([x - 10.0, middle - 4.0, z], [1.0, 0.4, 0.0]), 300.0, Cone::FINE);
         hits += usize::from(hit.is_some_and(|hit| hit.part == Part::Crown));
     }
     assert!(hits > 30, "{hits}");
+}
+
+#[test]
+#[ignore = "prints times"]
+fn what_a_cast_costs() {
+    let place = Place::ORIGIN;
+    let world = World::new(&hills(), &dense());
+    let mut grove = Grove::new(&world.planting, world.ground(), &world.felled);
+    let some = rays(&world, &place, 31, 4000, 40.0);
+    let solids = world.solids(&place, 120.0);
+    for cone in [Cone::FINE, Cone { start: 0.0, growth: 0.001 }, Cone { start: 0.0, growth: 0.01 }] {
+        for _ in 0..2 {
+            let mut work = PlantWork::default();
+            let start = std::time::Instant::now();
+            let hits =
+                some.iter().filter(|ray| grove.cast_as::<f64>(&place, ray, 60.0, cone, &mut work).is_some()).count();
+            println!("{cone:?}: {:.1} µs a ray, {hits} hits, {work:?}", start.elapsed().as_nanos() as f64 / 4e6);
+        }
+        let near: Vec<_> = some
+            .iter()
+            .flat_map(|ray| solids.iter().take(400).map(move |solid| (ray, solid)))
+            .filter(|(ray, solid)| {
+                solid
+                    .crown_chord(solid.own(ray.origin()), solid.own_direction(ray.direction()))
+                    .is_some_and(|c| c[0] > 0.0)
+            })
+            .collect();
+        let start = std::time::Instant::now();
+        let hits = near
+            .iter()
+            .filter(|(ray, solid)| solid.truth(ray.origin(), ray.direction(), [0.0, 100.0], cone.at(10.0)).is_some())
+            .count();
+        println!(
+            "truth: {:.1} µs a plant, {hits} of {}",
+            start.elapsed().as_nanos() as f64 / 1e3 / near.len() as f64,
+            near.len()
+        );
+    }
 }

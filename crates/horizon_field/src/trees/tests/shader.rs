@@ -2,7 +2,9 @@
 
 use naga::{Module, TypeInner};
 
-use crate::trees::{Forest, RECORD_WORDS, UNIFORM_BYTES, WGSL, Wind};
+use crate::trees::{
+    Forest, MIPS, PLANT_HURRY, PLANT_PATIENCE, PLANT_STEP, PLANT_STEPS, RECORD_WORDS, TEXELS, UNIFORM_BYTES, WGSL, Wind,
+};
 
 const INCLUDER: &str = "@group(2) @binding(0) var<uniform> plant_forest: PlantForest;
 @group(2) @binding(1) var plant_foliage: texture_3d<f32>;
@@ -55,4 +57,18 @@ fn bytes_are_laid_out_as_the_shader_reads_them() {
     assert_eq!(number(at(&species, "period")), default.period() as f32);
     assert_eq!(number(at(&species, "trunk") + 4), default.trunk as f32);
     assert_eq!(number(stride + at(&species, "foliage")), Forest::default().species[1].foliage as f32);
+}
+
+#[test]
+fn twins_share_their_constants() {
+    for constant in [
+        format!("const PLANT_STEPS: u32 = {PLANT_STEPS}u;"),
+        format!("const PLANT_STEP: f32 = {PLANT_STEP};"),
+        format!("const PLANT_PATIENCE: u32 = {PLANT_PATIENCE}u;"),
+        format!("const PLANT_HURRY: f32 = {PLANT_HURRY};"),
+        format!("const PLANT_TEXELS: f32 = {TEXELS}.0;"),
+        format!("const PLANT_COARSEST: f32 = {}.0;", MIPS - 1),
+    ] {
+        assert!(WGSL.contains(&constant), "{constant}");
+    }
 }

@@ -3,14 +3,17 @@
 use super::{World, dense, hills, ray};
 use crate::Place;
 use crate::field::arbitrary::Random;
+use crate::march::Ray;
 use crate::trees::{Cone, Foliage, Forest, Part, nearest_truth};
 
-/// Rays into a forest, from around it.
-pub(super) fn rays(seed: u32, count: usize, reach: f64) -> Vec<crate::march::Ray> {
+/// Rays through a forest, from around a place.
+pub(super) fn rays(world: &World, place: &Place, seed: u32, count: usize, reach: f64) -> Vec<Ray> {
     let mut random = Random::new(seed);
     let mut one = || {
-        let origin = [random.within(-reach, reach), random.within(-20.0, 40.0), random.within(-reach, reach)];
-        ray(origin, [random.within(-1.0, 1.0), random.within(-0.6, 0.3), random.within(-1.0, 1.0)])
+        let [x, z] = [0; 2].map(|_| random.within(-reach, reach));
+        let ground = world.height(&place.translated([x, 0.0, z]));
+        let origin = [x, ground + random.magnitude(0.5, 12.0), z];
+        ray(origin, [random.within(-1.0, 1.0), random.within(-0.4, 0.2), random.within(-1.0, 1.0)])
     };
     (0..count).map(|_| one()).collect()
 }
@@ -22,7 +25,7 @@ fn without_foliage_the_truth_is_the_ellipsoids() {
     let world = World::new(&hills(), &forest);
     let solids = world.solids(&Place::ORIGIN, 60.0);
     let mut hits = 0;
-    for ray in rays(1, 300, 40.0) {
+    for ray in rays(&world, &Place::ORIGIN, 1, 300, 40.0) {
         for solid in &solids {
             let (o, d) = (solid.own(ray.origin()), solid.own_direction(ray.direction()));
             let entry = |part: Part| {
@@ -39,7 +42,7 @@ fn without_foliage_the_truth_is_the_ellipsoids() {
             hits += usize::from(expected.is_finite());
         }
     }
-    assert!(hits > 1000, "{hits}");
+    assert!(hits > 100, "{hits}");
 }
 
 #[test]
@@ -47,7 +50,7 @@ fn nothing_before_the_truth_is_inside_and_what_is_there_is() {
     let world = World::new(&hills(), &dense());
     let solids = world.solids(&Place::ORIGIN, 40.0);
     let mut random = Random::new(4);
-    for ray in rays(2, 150, 30.0) {
+    for ray in rays(&world, &Place::ORIGIN, 2, 150, 30.0) {
         for solid in &solids {
             let footprint = random.pick(&[1e-4, 0.05, 0.3, 3.0]);
             let level = solid.level(footprint);
@@ -58,6 +61,9 @@ fn nothing_before_the_truth_is_inside_and_what_is_there_is() {
             let end = truth.map_or(chord[1], |(t, _)| t).min(60.0);
             for _ in 0..50 {
                 let t = random.within(chord[0].clamp(0.0, end), end);
+                if t == end {
+                    break;
+                }
                 assert!(at(t) > -1e-9, "inside by {} at {t}, before {truth:?}", at(t));
             }
             if let Some((t, Part::Crown)) = truth {
@@ -112,7 +118,7 @@ fn far_crowns_are_the_ellipsoids_less_the_mean() {
 fn the_nearest_of_all_is_the_nearest() {
     let world = World::new(&hills(), &dense());
     let solids = world.solids(&Place::ORIGIN, 60.0);
-    for ray in rays(6, 100, 30.0) {
+    for ray in rays(&world, &Place::ORIGIN, 6, 100, 30.0) {
         let found = nearest_truth(&solids, ray.origin(), ray.direction(), 60.0, Cone::FINE);
         let each = solids.iter().filter_map(|s| s.truth(ray.origin(), ray.direction(), [0.0, 60.0], 1e-4));
         let least = each.map(|(t, _)| t).fold(f64::INFINITY, f64::min);

@@ -41,9 +41,9 @@ fn lobes_are_phase_functions() {
         assert!((f64::from(backward_share(g as f32)) - behind).abs() < 1e-6, "{g}");
     }
     // The form that textbooks have loses everything near 0 in single precision.
-    let g = 1e-4_f32;
+    let g = 1e-5_f32;
     let naive = (1.0 - g) / (2.0 * g) * ((1.0 + g) / (1.0 + g * g).sqrt() - 1.0);
-    assert!((naive - 0.5).abs() > 1e-4 && (backward_share(g) - 0.5).abs() < 1e-4, "naive: {naive}");
+    assert!((naive - 0.5).abs() > 5e-4 && (backward_share(g) - 0.5).abs() < 1e-4, "naive: {naive}");
 }
 
 #[test]
@@ -73,11 +73,12 @@ fn added_up(water: &Water<f64>, light: &WaterLight<f64>, depth: f64, view: [f64;
     let rayleigh = (1.0 + 0.835 * nu * nu) / (4.0 * PI * (1.0 + 0.835 / 3.0));
     let up = backward + (b + m - 2.0 * backward) * (1.0 - view[1]) / 2.0;
     let part = |z: f64, irradiance: f64, mu: f64, scattered: f64| {
-        let lost = a + backward;
-        let root = libm::sqrt((lost * (1.0 / mu + 2.0)).powi(2) - 8.0 * backward * backward / mu);
-        let ratio = (lost * (1.0 / mu + 2.0) - root) / (4.0 * backward);
-        let decay = lost / mu - 2.0 * backward * ratio;
-        irradiance * libm::exp(-decay * z) * (scattered / mu + up * ratio / PI)
+        let diffuse = b * (1.0 - water.anisotropy) + m;
+        let decay = libm::sqrt(a * a + (5.6 * mu - 2.5) * a * diffuse) / mu;
+        let once = 2.0 * backward / a * (0.975 - 0.629 * mu);
+        let y = once + (0.375 * diffuse / a - once).max(0.0) * diffuse / (diffuse + 5.0 * a);
+        let ratio = y / (1.0 + y + libm::sqrt(1.0 + 2.0 * y));
+        irradiance * libm::exp(-decay * z) * (scattered / mu + up * ratio / PI * (1.0 + 0.2 * (1.0 - ratio)))
     };
     let source = |t: f64| {
         let z = depth - t * view[1];
@@ -163,10 +164,10 @@ fn deep_water_reflects_as_measured() {
         let light = water.lit(direction(1.0, 0.0), [1.0; 3], [0.0; 3]);
         for k in 0..3 {
             let backward = water.backscattering()[k];
-            let known = 0.33 * backward / (water.absorption[k] + backward);
+            let known = 0.33 * backward / water.absorption[k];
             let ours = reflectance(&water, &light, k);
             println!("{k}: {ours:.4}, known {known:.4}");
-            assert!((ours / known - 1.0).abs() < 0.3, "{optics:?}: {ours}, not {known}");
+            assert!((ours / known - 1.0).abs() < 0.25, "{optics:?}: {ours}, not {known}");
         }
     }
 }
@@ -198,14 +199,15 @@ fn monte_carlo(water: &Water<f64>, sun_cosine: f64, k: usize, photons: u32) -> f
 
 #[test]
 fn deep_water_reflects_as_all_orders_of_scattering_do() {
-    for (b, sun_cosine) in [(0.5, 1.0), (2.0, 1.0), (8.0, 1.0), (30.0, 1.0), (2.0, 0.7), (8.0, 0.7)] {
+    let high = [0.5, 2.0, 8.0, 30.0, 100.0, 270.0].map(|b| (b, 1.0));
+    for (b, sun_cosine) in high.into_iter().chain([2.0, 8.0, 30.0].map(|b| (b, 0.7))) {
         let optics = WaterOptics { absorption: [1.0; 3], scattering: [b; 3], molecules: [0.0; 3], ..WaterOptics::PURE };
         let water = Water::<f64>::new(&optics);
         let light = WaterLight { sun: direction(sun_cosine, 0.0), sun_irradiance: [1.0; 3], sky_irradiance: [0.0; 3] };
-        let (ours, truth) = (reflectance(&water, &light, 0), monte_carlo(&water, sun_cosine, 0, 100_000));
-        let u = water.backscattering()[0] / (1.0 + water.backscattering()[0]);
-        println!("b/a {b}, sun {sun_cosine}: {ours:.4}, all orders {truth:.4}, 0.33 u {:.4}", 0.33 * u);
-        assert!((ours / truth - 1.0).abs() < 0.35, "b/a {b}, sun {sun_cosine}: {ours}, not {truth}");
+        let (ours, truth) = (reflectance(&water, &light, 0), monte_carlo(&water, sun_cosine, 0, 40_000));
+        let known = 0.33 * water.backscattering()[0];
+        println!("b/a {b}, sun {sun_cosine}: {ours:.4}, all orders {truth:.4}, 0.33 b_b/a {known:.4}");
+        assert!((ours / truth - 1.0).abs() < 0.2, "b/a {b}, sun {sun_cosine}: {ours}, not {truth}");
     }
 }
 
@@ -215,9 +217,8 @@ fn a_bed_under_milk_is_not_black() {
     let water = Water::<f64>::new(&WaterOptics::GLACIER_MILK);
     let (image, blur) = (water.transmittance(0.5), water.blurred(0.5));
     for k in 0..3 {
-        let field = water.absorption[k] + water.backscattering()[k];
         assert!(image[k] < 1e-4, "naive: {}", image[k]);
-        assert!((image[k] + blur[k] - libm::exp(-0.5 * field)).abs() < 1e-6 && blur[k] > 0.6);
+        assert!(blur[k] > 0.5 && blur[k] + image[k] < 1.0, "{blur:?}");
     }
 }
 

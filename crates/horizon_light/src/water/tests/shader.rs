@@ -39,7 +39,9 @@ fn twins_share_their_constants() {
     };
     has("WATER_PI", &[core::f64::consts::PI]);
     has("WATER_SKY_COSINE", &[body::SKY_COSINE]);
-    has("WATER_UP_COSINE", &[body::UP_COSINE]);
+    has("WATER_KIRK", &body::KIRK);
+    has("WATER_GATHERED", &[body::GATHERED]);
+    has("WATER_MILKY", &[body::MILKY]);
     has("WATER_FARTHEST", &[body::FARTHEST]);
     has("WATER_LOWEST_SUN", &[body::LOWEST_SUN]);
     has("WATER_MOLECULES", &[body::MOLECULES]);
