@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use horizon_field::FieldError;
 use horizon_field::trees::ForestError;
+use horizon_field::waves::WavesError;
 use serde_json::{Map, Value};
 use thiserror::Error;
 
@@ -79,6 +80,9 @@ pub enum ChartsError {
     /// A forest was refused.
     #[error(transparent)]
     Forest(#[from] ForestError),
+    /// Waves were refused.
+    #[error(transparent)]
+    Waves(#[from] WavesError),
     /// An image can't be had.
     #[error("{}: {reason}", file.display())]
     Image {

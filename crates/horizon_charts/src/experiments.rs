@@ -10,6 +10,7 @@ pub mod queries;
 pub mod seed_000;
 pub mod sky;
 pub mod trees;
+pub mod water;
 
 use crate::experiment::Experiment;
 
@@ -26,5 +27,6 @@ pub fn all() -> Vec<Box<dyn Experiment>> {
         Box::new(cameras::Cameras),
         Box::new(sky::Sky),
         Box::new(trees::Trees),
+        Box::new(water::Water),
     ]
 }

@@ -49,6 +49,12 @@ impl<'a> Grove<'a> {
         Self { wind: wind.within(self.planting.forest()), ..self }
     }
 
+    /// The ground.
+    #[cfg(feature = "baselines")]
+    pub(super) fn ground(&self) -> PlantGround<'a> {
+        self.ground
+    }
+
     /// The plant of a cell, if one stands.
     pub fn plant(&mut self, cell: [i64; 2]) -> Option<Plant> {
         self.near(cell, [f64::NEG_INFINITY, f64::INFINITY])

@@ -40,12 +40,22 @@ pub struct NineCells {
     pub pace: f64,
     /// How near to a plant a ray meets it, in pixels.
     pub near: f64,
+    /// Whether the ground's height under the nine plants is computed at every step, as eq. 3.10 has it, and not remembered.
+    /// What else there is to know of a plant is remembered in any case.
+    pub forgetful: bool,
 }
 
 impl NineCells {
     /// Seed 000's search, as printed in eq. 3.7 to 3.10.
-    pub const PRINTED: Self =
-        Self { distance: Distance::Printed, shared: true, divided: false, limited: false, pace: 1.0, near: NEAR };
+    pub const PRINTED: Self = Self {
+        distance: Distance::Printed,
+        shared: true,
+        divided: false,
+        limited: false,
+        pace: 1.0,
+        near: NEAR,
+        forgetful: false,
+    };
     /// Sphere tracing of the whole domain, with what it takes to be sure.
     pub const SURE: Self =
         Self { distance: Distance::Bound, shared: false, divided: true, limited: true, ..Self::PRINTED };
@@ -66,7 +76,9 @@ impl NineCells {
         let direction = ray.direction();
         let flat = libm::hypot(direction[0], direction[2]);
         // The plants around a point, made once for all steps within its cell.
-        let mut around: Option<([f64; 2], Vec<Solid<f64>>)> = None;
+        let (mut cell, mut around) = ([f64::NAN; 2], Vec::new());
+        let anchors = grove.ground().field.anchor(place);
+        let (mut feet, mut heights) = (Vec::new(), Vec::new());
         for _ in 0..RIVAL_STEPS {
             if t > end {
                 return None;
@@ -74,13 +86,18 @@ impl NineCells {
             let [x, y, z] = ray.at(t);
             let p = [x + within[0], y, z + within[1]];
             let here = [p[0], p[2]].map(|x| (x / spacing).floor());
-            if around.as_ref().is_none_or(|(cell, _)| *cell != here) {
-                around = Some((here, self.around(grove, base, here)));
+            if cell != here {
+                (cell, around) = (here, self.around(grove, base, here));
+                feet = around.iter().map(|solid| [solid.foot[0] - within[0], solid.foot[2] - within[1]]).collect();
+                heights = vec![0.0; around.len()];
             }
-            let solids = around.iter().flat_map(|(_, solids)| solids);
+            if self.forgetful {
+                grove.ground().field.values_f64(&anchors, &feet, 0.0, &mut heights);
+                around.iter_mut().zip(&heights).for_each(|(solid, height)| solid.foot[1] = *height);
+            }
             let mut step = f64::INFINITY;
             work.cells += 1;
-            for solid in solids {
+            for solid in &around {
                 work.plants += 1;
                 step = step.min(self.distance(solid, p, direction, cone.at(t), work));
             }

@@ -7,8 +7,11 @@ use horizon_field::trees::{Cone, Distance, Grove, NineCells, PlantWork};
 use super::woods::Sight;
 use crate::march::OURS;
 
-/// What the rows of seed 000's search begin with.
+/// Seed 000's search, which computes at every step where its nine plants stand.
 pub const NINE: &str = "nine cells";
+
+/// The same, with our cache of plants.
+pub const NINE_CACHED: &str = "nine cells, our cache";
 
 /// The settings of ours that are like the rivals': all search the same stretch of a ray.
 pub const LIKE: &str = "from the canopy";
@@ -34,8 +37,8 @@ pub enum Search {
     Cells(NineCells, Start),
 }
 
-/// All of them, with their settings: ours, also from the camera on; seed 000's as printed, and with what is wrong with its placement put right; sphere
-/// tracing of the whole domain by a distance that is a bound.
+/// All of them, with their settings: ours, also from the camera on; seed 000's as printed, with what is wrong with its placement
+/// put right, and the same with our cache of plants; sphere tracing of the whole domain by a distance that is a bound.
 pub fn all(quick: bool) -> Vec<Search> {
     let mut all = vec![Search::Dual(Start::Canopy), Search::Dual(Start::Camera)];
     for near in [0.25, 0.01] {
@@ -45,10 +48,11 @@ pub fn all(quick: bool) -> Vec<Search> {
         all.push(Search::Cells(NineCells { pace, ..NineCells::PRINTED }, Start::LastCanopy));
     }
     for distance in [Distance::Printed, Distance::Estimate, Distance::Bound] {
-        for pace in [1.0, 0.7, 0.5, 0.25] {
+        for pace in [1.0, 0.7, 0.5] {
             for near in [0.25, 0.05, 0.01] {
                 let search = NineCells { distance, shared: false, pace, near, ..NineCells::PRINTED };
                 all.push(Search::Cells(search, Start::Canopy));
+                all.push(Search::Cells(NineCells { forgetful: true, ..search }, Start::Canopy));
             }
         }
     }
@@ -61,7 +65,8 @@ impl Search {
         match self {
             Self::Dual(_) => OURS,
             Self::Cells(NineCells { shared: true, .. }, _) => "nine cells, as printed",
-            Self::Cells(NineCells { limited: false, .. }, _) => NINE,
+            Self::Cells(NineCells { forgetful: true, .. }, _) => NINE,
+            Self::Cells(NineCells { limited: false, .. }, _) => NINE_CACHED,
             Self::Cells(..) => "sphere tracing",
         }
     }
