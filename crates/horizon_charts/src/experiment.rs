@@ -4,6 +4,8 @@ use std::io;
 use std::path::PathBuf;
 
 use horizon_field::FieldError;
+use horizon_field::trees::ForestError;
+use horizon_field::waves::WavesError;
 use serde_json::{Map, Value};
 use thiserror::Error;
 
@@ -75,6 +77,12 @@ pub enum ChartsError {
     /// A field was refused.
     #[error(transparent)]
     Field(#[from] FieldError),
+    /// A forest was refused.
+    #[error(transparent)]
+    Forest(#[from] ForestError),
+    /// Waves were refused.
+    #[error(transparent)]
+    Waves(#[from] WavesError),
     /// An image can't be had.
     #[error("{}: {reason}", file.display())]
     Image {

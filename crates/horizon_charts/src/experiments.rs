@@ -9,6 +9,8 @@ pub mod naturalness;
 pub mod queries;
 pub mod seed_000;
 pub mod sky;
+pub mod trees;
+pub mod water;
 
 use crate::experiment::Experiment;
 
@@ -24,5 +26,7 @@ pub fn all() -> Vec<Box<dyn Experiment>> {
         Box::new(naturalness::Naturalness),
         Box::new(cameras::Cameras),
         Box::new(sky::Sky),
+        Box::new(trees::Trees),
+        Box::new(water::Water),
     ]
 }

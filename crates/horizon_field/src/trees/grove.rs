@@ -16,6 +16,9 @@ use crate::real::Real;
 /// How far a ray is followed, in metres.
 pub const FARTHEST: f64 = 1e5;
 
+/// What rounding may take from a reach, in metres.
+const HAIR: f64 = 1e-3;
+
 /// The plants of one tile.
 struct Tile {
     /// What is proven of the ground's height.
@@ -44,6 +47,12 @@ impl<'a> Grove<'a> {
     /// The same in a wind.
     pub fn in_wind(self, wind: &Wind) -> Self {
         Self { wind: wind.within(self.planting.forest()), ..self }
+    }
+
+    /// The ground.
+    #[cfg(feature = "baselines")]
+    pub(super) fn ground(&self) -> PlantGround<'a> {
+        self.ground
     }
 
     /// The plant of a cell, if one stands.
@@ -123,7 +132,8 @@ impl<'a> Grove<'a> {
             let corner = dual.map(|dual| (dual + 1) as f64 * spacing);
             let start = [origin[0] + enter * dx - corner[0], y + enter * dy, origin[2] + enter * dz - corner[1]];
             let datum = start[1];
-            let start = [start[0], 0.0, start[2]].map(T::of);
+            let from = [start[0], 0.0, start[2]];
+            let start = from.map(T::of);
             let direction = [dx, dy, dz].map(T::of);
             let mut nearest: Option<(T, Part, Plant)> = None;
             for side in [[0, 0], [1, 0], [0, 1], [1, 1]] {
@@ -131,7 +141,11 @@ impl<'a> Grove<'a> {
                 let Some(plant) = self.near(cell, heights) else { continue };
                 work.plants += 1;
                 let at = |k: usize| ((side[k] - 1) as f64 + f64::from(plant.offset[k]) / 65535.0) * spacing;
-                let solid = self.solid::<T>(&plant, [at(0), plant.foot() - datum, at(1)]);
+                let foot = [at(0), plant.foot() - datum, at(1)];
+                if !self.may_meet(&plant, foot, [from[0], from[2]], [dx, dz], heights.map(|y| y - datum)) {
+                    continue;
+                }
+                let solid = self.solid::<T>(&plant, foot);
                 let footprint = T::of(cone.at(enter + solid.depth(start, direction).f64()));
                 let end = nearest.as_ref().map_or(T::of(leave - enter), |(t, ..)| *t);
                 if let Some((t, part)) = each(&solid, start, direction, [T::ZERO, end], footprint, work) {
@@ -144,6 +158,18 @@ impl<'a> Grove<'a> {
             }
         }
         None
+    }
+
+    /// Whether a ray that is between two heights may meet a plant, by the upright cylinder that holds it: most rays pass by.
+    fn may_meet(&self, plant: &Plant, foot: [f64; 3], [x, z]: [f64; 2], [dx, dz]: [f64; 2], heights: [f64; 2]) -> bool {
+        let forest = self.planting.forest();
+        let species = &forest.species[usize::from(plant.species)];
+        let [height, radius] = [plant.height, plant.radius].map(f64::from);
+        let reach = radius + species.lean * height + forest.sway + HAIR;
+        let beside = (foot[0] - x) * dz - (foot[2] - z) * dx;
+        beside * beside <= reach * reach * (dx * dx + dz * dz) + HAIR
+            && heights[0] <= foot[1] + height + HAIR
+            && heights[1] >= foot[1] - height - HAIR
     }
 
     /// The solid of a plant whose foot is at `foot` in some frame, in this wind.

@@ -26,7 +26,7 @@ pub enum Distance {
 }
 
 /// Sphere tracing through repeated cells.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NineCells {
     /// The distance from an ellipsoid.
     pub distance: Distance,
@@ -36,13 +36,29 @@ pub struct NineCells {
     pub divided: bool,
     /// Whether steps end where cells begin that were not looked at.
     pub limited: bool,
+    /// The share of the distance that a step takes: 1 is sphere tracing as it is known.
+    pub pace: f64,
+    /// How near to a plant a ray meets it, in pixels.
+    pub near: f64,
+    /// Whether the ground's height under the nine plants is computed at every step, as eq. 3.10 has it, and not remembered.
+    /// What else there is to know of a plant is remembered in any case.
+    pub forgetful: bool,
 }
 
 impl NineCells {
     /// Seed 000's search, as printed in eq. 3.7 to 3.10.
-    pub const PRINTED: Self = Self { distance: Distance::Printed, shared: true, divided: false, limited: false };
+    pub const PRINTED: Self = Self {
+        distance: Distance::Printed,
+        shared: true,
+        divided: false,
+        limited: false,
+        pace: 1.0,
+        near: NEAR,
+        forgetful: false,
+    };
     /// Sphere tracing of the whole domain, with what it takes to be sure.
-    pub const SURE: Self = Self { distance: Distance::Bound, shared: false, divided: true, limited: true };
+    pub const SURE: Self =
+        Self { distance: Distance::Bound, shared: false, divided: true, limited: true, ..Self::PRINTED };
 
     /// The distance in metres at which a ray first meets a plant, as this search has it; arguments as of [`Grove::cast`].
     pub fn cast(
@@ -59,6 +75,10 @@ impl NineCells {
         let (base, within) = cell_of(place, spacing);
         let direction = ray.direction();
         let flat = libm::hypot(direction[0], direction[2]);
+        // The plants around a point, made once for all steps within its cell.
+        let (mut cell, mut around) = ([f64::NAN; 2], Vec::new());
+        let anchors = grove.ground().field.anchor(place);
+        let (mut feet, mut heights) = (Vec::new(), Vec::new());
         for _ in 0..RIVAL_STEPS {
             if t > end {
                 return None;
@@ -66,19 +86,22 @@ impl NineCells {
             let [x, y, z] = ray.at(t);
             let p = [x + within[0], y, z + within[1]];
             let here = [p[0], p[2]].map(|x| (x / spacing).floor());
+            if cell != here {
+                (cell, around) = (here, self.around(grove, base, here));
+                feet = around.iter().map(|solid| [solid.foot[0] - within[0], solid.foot[2] - within[1]]).collect();
+                heights = vec![0.0; around.len()];
+            }
+            if self.forgetful {
+                grove.ground().field.values_f64(&anchors, &feet, 0.0, &mut heights);
+                around.iter_mut().zip(&heights).for_each(|(solid, height)| solid.foot[1] = *height);
+            }
             let mut step = f64::INFINITY;
             work.cells += 1;
-            for neighbour in 0..9 {
-                let side = [neighbour % 3 - 1, neighbour / 3 - 1];
-                let of = |side: [i64; 2]| core::array::from_fn(|k| base[k].wrapping_add(here[k] as i64 + side[k]));
-                let Some(plant) = grove.plant(of(side)) else { continue };
-                let offset = if self.shared { grove.plant(of([0, 0])).unwrap_or(plant).offset } else { plant.offset };
-                let at = |k: usize| (here[k] + side[k] as f64 + f64::from(offset[k]) / 65535.0) * spacing;
-                let solid = grove.solid::<f64>(&plant, [at(0), plant.foot(), at(1)]);
+            for solid in &around {
                 work.plants += 1;
-                step = step.min(self.distance(&solid, p, direction, cone.at(t), work));
+                step = step.min(self.distance(solid, p, direction, cone.at(t), work));
             }
-            if step < NEAR * cone.at(t) {
+            if step < self.near * cone.at(t) {
                 return Some(t);
             }
             if self.limited {
@@ -88,9 +111,25 @@ impl NineCells {
                 step = step.min(free / flat.max(1e-9)).max(1e-6);
             }
             // With nothing in nine cells there is no distance; a cell's edge is what is left.
-            t += if step.is_finite() { step } else { spacing };
+            t += if step.is_finite() { self.pace * step } else { spacing };
         }
         None
+    }
+
+    /// The plants of the nine cells around a cell, as the search has them.
+    fn around(&self, grove: &mut Grove<'_>, base: [i64; 2], here: [f64; 2]) -> Vec<Solid<f64>> {
+        let spacing = grove.spacing();
+        let of = |side: [i64; 2]| core::array::from_fn(|k| base[k].wrapping_add(here[k] as i64 + side[k]));
+        let middle = grove.plant(of([0, 0]));
+        let sides = (0..9).map(|neighbour| [neighbour % 3 - 1, neighbour / 3 - 1]);
+        sides
+            .filter_map(|side| {
+                let plant = grove.plant(of(side))?;
+                let offset = if self.shared { middle.unwrap_or(plant).offset } else { plant.offset };
+                let at = |k: usize| (here[k] + side[k] as f64 + f64::from(offset[k]) / 65535.0) * spacing;
+                Some(grove.solid(&plant, [at(0), plant.foot(), at(1)]))
+            })
+            .collect()
     }
 
     fn distance(
