@@ -14,6 +14,8 @@ struct WaterPixel {
     t_near: f32,
 }
 
+// Pixels over which slopes are smoothed.
+const SMOOTHER: f32 = 2.0;
 // Further than anything is.
 const UNSEEN: f32 = 1e9;
 
@@ -168,7 +170,8 @@ fn seen_from_air(pixel: WaterPixel, position: vec4<f32>, met: Met, depth: f32, t
     // The footprint on the level: as wide as a pixel, and longer the flatter one looks.
     let ahead = normalize(d.xz + vec2<f32>(1e-9, 0.0));
     let long = footprint / max(abs(d.y), 2e-4);
-    let shape = wave_shape(body, o.xz, ahead * min(long, 1e5), vec2<f32>(-ahead.y, ahead.x) * footprint);
+    // Light that is mirrored is no linear function of the slopes: it needs them smoother than a picture of them would.
+    let shape = wave_shape(body, o.xz, ahead * min(SMOOTHER * long, 1e5), vec2<f32>(-ahead.y, ahead.x) * (SMOOTHER * footprint));
     let variance = shape.variance + vec2<f32>(0.5 * waters.bodies[body].ripples);
     var normal = normalize(vec3<f32>(-shape.slope.x, 1.0, -shape.slope.y));
     let v = -d;
@@ -244,7 +247,8 @@ fn seen_from_within(pixel: WaterPixel, position: vec4<f32>, body: u32, met: Met,
     let leaves = water_refract(d, normal, 1.0 / optics.index);
     let reach = met.t - pixel.t_near;
     let depth_here = max(-(waters.bodies[body].above + start.y), 0.0);
-    let through = water_transmittance(optics, reach) + water_blurred(optics, reach);
+    // What the sky's light is scattered forward is in the light along the way.
+    let through = water_transmittance(optics, reach);
     // What is mirrored from below: the water's own light.
     let back = reflect(d, normal);
     let deep = water_in_scatter(optics, light, 0.0, vec3<f32>(back.x, -abs(back.y), back.z), UNSEEN);
