@@ -117,6 +117,7 @@ fn the_shadow_of_a_hill_on_a_mesh_ends_where_it_should() {
     const METRES: f32 = 8.0;
     /// The tangent of the sun's elevation.
     const RISE: f32 = 0.25;
+    let mut measured = Vec::new();
     for deferred in [false, true] {
         let (field, crest) = hill();
         // The sun stands over −x.
@@ -156,9 +157,13 @@ fn the_shadow_of_a_hill_on_a_mesh_ends_where_it_should() {
             "deferred {deferred}: the edge is off by {mean:.2} px, at most {worst:.2}, at {} m a pixel",
             METRES / SIZE as f32
         );
-        // A pixel is 5 cm. Where the ray grazes, patches bow by some millimetres, which the sun throws four times as far; and the
-        // table knows the shadow's height to half a percent.
-        assert!(mean < 0.75 && worst < 1.5, "deferred {deferred}: {errors:?}");
+        measured.push((deferred, mean, worst));
+    }
+    for (deferred, mean, worst) in measured {
+        // A pixel is 5 cm. Where the ray grazes, patches bow by some millimetres, which the sun throws four times as far. The table
+        // knows the shadow's height to half a percent; the map has the ground in quads of several texels.
+        let [few, most] = if deferred { [0.6, 1.1] } else { [0.95, 1.5] };
+        assert!(mean < few && worst < most, "deferred {deferred}: {mean}, {worst}");
     }
 }
 

@@ -153,16 +153,19 @@ fn the_nearest_of_mesh_ground_and_plant_shows() {
             let woods = scene(true, false, true).depth();
             let bare = scene(false, false, true).depth();
             let meshes = scene(false, true, false).depth();
-            let (mut hides, mut hidden, mut over_ground) = (0, 0, 0);
+            let (mut hides, mut hidden, mut over_ground, mut cut) = (0, 0, 0, 0);
             for (((all, woods), bare), mesh) in all.iter().zip(&woods).zip(&bare).zip(&meshes) {
-                // Reverse z: the nearer is the larger, to the bit.
-                assert_eq!(*all, woods.max(*mesh), "deferred: {deferred}");
+                // Reverse z: the nearer is the larger, to the bit; but where a mesh ends a ray within a crown's last step, that is shorter.
+                let nearer = woods.max(*mesh);
+                assert!((all - nearer).abs() <= 5e-4 * nearer, "deferred: {deferred}: {all}, not {nearer}");
+                cut += usize::from(*all != nearer);
                 assert!(woods >= bare);
                 over_ground += usize::from(woods > bare);
                 hides += usize::from(woods > bare && *mesh > 0.0 && woods > mesh && mesh > bare);
                 hidden += usize::from(woods > bare && mesh > woods);
             }
             println!("deferred {deferred}: {over_ground} of plants, {hides} before a mesh, {hidden} behind one");
+            assert!(cut < 10, "{cut} pixels are not to the bit");
             assert!(over_ground > 4_000 && hides > 50 && hidden > 50, "{over_ground}, {hides}, {hidden}");
         }
     }

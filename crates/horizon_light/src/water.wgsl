@@ -4,6 +4,7 @@
 
 const WATER_PI: f32 = 3.14159265;
 const WATER_SKY_COSINE: f32 = 0.84;
+const WATER_SKY_PEAK: f32 = 0.47;
 const WATER_KIRK: vec4<f32> = vec4<f32>(5.6, 2.5, 0.975, 0.629);
 const WATER_GATHERED: f32 = 0.2;
 const WATER_MILKY: f32 = 5.0;
@@ -268,7 +269,7 @@ fn water_in_scatter(water: Water, light: WaterLight, depth: f32, direction: vec3
     let toward = clamp(dot(light.sun, direction), -1.0, 1.0);
     let sun_molecules = (1.0 + WATER_MOLECULES * toward * toward) / (4.0 * WATER_PI * (1.0 + WATER_MOLECULES / 3.0));
     let sun_scattered = water.scattering * water_lobe(water.anisotropy, toward) + water.molecules * sun_molecules;
-    let sky_scattered = water.scattering * water_lobe(water.anisotropy * WATER_SKY_COSINE, -down)
+    let sky_scattered = water.scattering * min(water_lobe(water.anisotropy * WATER_SKY_COSINE, -down), WATER_SKY_PEAK)
         + water.molecules * (0.25 / WATER_PI);
     let backward = water_backscattering(water);
     let turned = backward + (water.scattering + water.molecules - 2.0 * backward) * (0.5 * (1.0 + down));

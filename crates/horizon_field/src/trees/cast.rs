@@ -70,6 +70,7 @@ impl<T: Real> Solid<T> {
         }
         let Some(chord) = self.crown_chord(o, d) else { return hit };
         let (mut t, leave) = (chord[0].max(start), chord[1].min(end));
+        let cut = leave < chord[1];
         if t > leave {
             return hit;
         }
@@ -91,6 +92,15 @@ impl<T: Real> Solid<T> {
             (step, before) = (least.max(f * pace), f);
             t += step;
             if t > leave {
+                // What ends a ray within a crown may stand just behind its skin.
+                let last = leave - (t - step);
+                if cut && last > T::ZERO {
+                    work.steps += 1;
+                    let f = self.crown(core::array::from_fn(|k| o[k] + leave * d[k]), level);
+                    if f < T::ZERO {
+                        return Some((leave + last * f / (before - f), Part::Crown));
+                    }
+                }
                 return hit;
             }
         }

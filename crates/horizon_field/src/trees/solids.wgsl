@@ -314,6 +314,7 @@ fn plant_cast(solid: PlantSolid, origin: vec3<f32>, direction: vec3<f32>, range:
         }
     }
     enter = max(enter, range.x);
+    let cut = hit.t < leave;
     leave = min(leave, hit.t);
     if !(enter <= leave) {
         return hit;
@@ -338,6 +339,14 @@ fn plant_cast(solid: PlantSolid, origin: vec3<f32>, direction: vec3<f32>, range:
         before = f;
         t += step;
         if t > leave {
+            // What ends a ray within a crown may stand just behind its skin.
+            let last = leave - (t - step);
+            if cut && last > 0.0 {
+                let f = plant_crown(solid, o + leave * d, level);
+                if f < 0.0 {
+                    return PlantHit(leave + last * f / (before - f), PLANT_CROWN, vec2<i32>(0));
+                }
+            }
             return hit;
         }
     }

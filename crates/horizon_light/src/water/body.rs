@@ -27,6 +27,9 @@ use crate::profile::Light;
 
 /// Mean cosine of a uniform sky's light under a surface with the index 1.333: irradiance over scalar irradiance.
 pub const SKY_COSINE: f64 = 0.84;
+/// The most that sky light is scattered into a direction, per steradian: it comes from all of Snell's window, of 2.13 sr, while a lobe
+/// about one direction would have a peak as sharp as the particles' own.
+pub const SKY_PEAK: f64 = 0.47;
 
 /// Kirk's coefficients: K's and R's.
 pub(super) const KIRK: [f64; 4] = [5.6, 2.5, 0.975, 0.629];
@@ -204,7 +207,7 @@ impl<T: Real> Water<T> {
         let toward = toward.clamp(-T::ONE, T::ONE);
         let sky_cosine = T::of(SKY_COSINE);
         let sun_lobe = lobe(self.anisotropy, toward);
-        let sky_lobe = lobe(self.anisotropy * sky_cosine, -down);
+        let sky_lobe = lobe(self.anisotropy * sky_cosine, -down).min(T::of(SKY_PEAK));
         let sun_molecules = T::of(1.0 / (4.0 * core::f64::consts::PI * (1.0 + MOLECULES / 3.0)))
             * (T::ONE + T::of(MOLECULES) * toward * toward);
         let sky_molecules = T::of(0.25 / core::f64::consts::PI);
