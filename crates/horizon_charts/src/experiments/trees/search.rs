@@ -41,7 +41,7 @@ pub enum Search {
 /// put right, and the same with our cache of plants; sphere tracing of the whole domain by a distance that is a bound.
 pub fn all(quick: bool) -> Vec<Search> {
     let mut all = vec![Search::Dual(Start::Canopy), Search::Dual(Start::Camera)];
-    for near in [0.25, 0.01] {
+    for near in [0.25, 0.002] {
         all.push(Search::Cells(NineCells { near, ..NineCells::SURE }, Start::Camera));
     }
     for pace in [1.0, 0.5, 0.25] {
@@ -49,7 +49,7 @@ pub fn all(quick: bool) -> Vec<Search> {
     }
     for distance in [Distance::Printed, Distance::Estimate, Distance::Bound] {
         for pace in [1.0, 0.7, 0.5] {
-            for near in [0.25, 0.05, 0.01] {
+            for near in [0.25, 0.02, 0.002] {
                 let search = NineCells { distance, shared: false, pace, near, ..NineCells::PRINTED };
                 all.push(Search::Cells(search, Start::Canopy));
                 all.push(Search::Cells(NineCells { forgetful: true, ..search }, Start::Canopy));
