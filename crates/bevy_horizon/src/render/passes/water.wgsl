@@ -176,16 +176,17 @@ fn seen_from_air(pixel: WaterPixel, position: vec4<f32>, met: Met, depth: f32, t
     var normal = normalize(vec3<f32>(-shape.slope.x, 1.0, -shape.slope.y));
     let v = -d;
     let facing = dot(normal, v);
-    // A pixel on a crest sees slopes that face it; one that is all but parallel would mirror the horizon alone.
-    if (facing < 0.08) {
-        normal = normalize(normal + (0.08 - facing) * v);
+    // A pixel on a crest sees slopes that face it; one that is all but parallel to the view would mirror the horizon alone.
+    let least = clamp(0.9 * v.y, 0.005, 0.08);
+    if (facing < least) {
+        normal = normalize(normal + (least - facing) * v);
     }
-    let cosine = max(dot(normal, v), 0.01);
+    let cosine = max(dot(normal, v), 0.005);
     let mean = 0.5 * (variance.x + variance.y);
     let fresnel = water_reflectance(cosine, dot(variance, ahead * ahead), optics.index);
     // Of a rough surface one sees the slopes that face the eye, and these mirror what is higher.
     var mirrored = reflect(d, normal);
-    mirrored.y = abs(mirrored.y) + 1.2 * sqrt(mean) * (1.0 - cosine) * (1.0 - cosine);
+    mirrored.y = abs(mirrored.y) + 0.4 * sqrt(mean) * (1.0 - cosine) * (1.0 - cosine);
     mirrored = normalize(mirrored);
 
     let sun_seen = sun_over_water(o, position);
