@@ -64,43 +64,23 @@ pub const EXTINCTION: f64 = 0.4;
 /// [`Octaves::asymmetry`] as fitted.
 pub const ASYMMETRY: f64 = 0.6;
 
-/// A march towards the sun.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SunMarch<T> {
-    /// The sun's direction, of length 1.
-    pub sun: [T; 3],
-    /// Samples, at least 1; they lie closer near the point, where depth matters most.
-    pub samples: u32,
-    /// How far it looks at most, in metres.
-    pub reach: T,
-}
-
-impl<T: Light> SunMarch<T> {
-    /// Optical depth from a point of the ray's to the sun.
-    pub fn depth(
-        &self,
-        cloud: &Cloud<T>,
-        volume: &CloudVolume,
-        from: &CloudRay<T>,
-        weather: impl Fn([T; 3]) -> Weather<T>,
-    ) -> T {
-        let mut depth = T::ZERO;
-        let per = T::ONE / T::of_u32(self.samples.max(1));
-        for [near, far] in from.spans(cloud) {
-            let length = far.min(self.reach) - near;
-            if length <= T::ZERO {
-                continue;
-            }
-            for i in 0..self.samples.max(1) {
-                // From x² to (x + 1/n)² of the way, sampled in the middle.
-                let [a, b] = [i, i + 1].map(|i| T::of_u32(i) * per);
-                let width = (b - a) * (b + a) * length;
-                let point = from.point(near + T::of(0.5) * (a * a + b * b) * length);
-                depth += width * cloud.density(volume, &point, &weather(point.at));
-            }
+/// Optical depth along a ray towards the sun, through its spans up to `reach` metres. Samples, at least 1, lie closer near its start,
+/// where depth matters most.
+pub fn sun_depth<T: Real>(spans: [Span<T>; 2], samples: u32, reach: T, mut extinction: impl FnMut(T) -> T) -> T {
+    let mut depth = T::ZERO;
+    let per = T::ONE / T::of_u32(samples.max(1));
+    for [near, far] in spans {
+        let length = far.min(reach) - near;
+        if length <= T::ZERO {
+            continue;
         }
-        depth * cloud.extinction
+        for i in 0..samples.max(1) {
+            // From x² to (x + 1/n)² of the way, sampled in the middle.
+            let [a, b] = [i, i + 1].map(|i| T::of_u32(i) * per);
+            depth += (b - a) * (b + a) * length * extinction(near + T::of(0.5) * (a * a + b * b) * length);
+        }
     }
+    depth
 }
 
 /// How a ray is marched.
@@ -134,7 +114,6 @@ pub fn seen<T: Light>(
 ) -> Marched<T> {
     let mut marched = Marched::new();
     let nu = (0..3).fold(T::ZERO, |sum, k| sum + ray.toward[k] * sun[k]).clamp(-T::ONE, T::ONE);
-    let march = SunMarch { sun, samples: quality.sun_samples, reach: quality.reach };
     for span in ray.spans(cloud) {
         let steps = Steps::even(span, quality.steps, quality.jitter);
         marched.through(
@@ -150,7 +129,10 @@ pub fn seen<T: Light>(
                     return Sample { extinction, source: [T::ZERO; 3] };
                 }
                 let from = CloudRay { from: point, toward: sun, ..*ray };
-                let depth = march.depth(cloud, volume, &from, &weather);
+                let depth = sun_depth(from.spans(cloud), quality.sun_samples, quality.reach, |distance| {
+                    let point = from.point(distance);
+                    cloud.extinction * cloud.density(volume, &point, &weather(point.at))
+                });
                 Sample { extinction, source: [extinction * quality.octaves.source(&cloud.phase, nu, depth); 3] }
             },
         );
