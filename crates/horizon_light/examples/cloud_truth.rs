@@ -12,7 +12,7 @@ use horizon_light::reference::cloud::scenes::{SUNS, Scene, Scenes};
 const RELATIVE: f64 = 0.015;
 
 /// Paths after which a ray is taken as it is.
-const MOST: u64 = 40_000;
+const MOST: u64 = 300_000;
 
 /// Cells of the quadrature along a ray, and towards the sun.
 const CELLS: usize = 600;
@@ -26,17 +26,30 @@ fn main() -> ExitCode {
     let mut table = "scene,sun_zenith_deg,ray,once,all,standard_error\n".to_owned();
     for scene in Scene::ALL {
         let matter = scenes.matter(scene);
-        for zenith in SUNS {
+        let rows = |zenith: f64| {
             let lit = scenes.lit(&matter, zenith);
+            let mut rows = String::new();
             for (ray, [from, toward]) in scene.rays().into_iter().enumerate() {
                 let once = lit.once(from, toward, CELLS);
                 let all = lit.radiance_within(from, toward, RELATIVE, MOST, ray as u64);
                 let (name, mean, error) = (scene.name(), all.mean, all.standard_error);
                 // Writing to a string does not fail.
-                let _ = writeln!(table, "{name},{zenith},{ray},{once:.5e},{mean:.5e},{error:.2e}");
+                let _ = writeln!(rows, "{name},{zenith},{ray},{once:.5e},{mean:.5e},{error:.2e}");
             }
             eprintln!("{}, sun at {zenith} degrees: done", scene.name());
-        }
+            rows
+        };
+        std::thread::scope(|scope| {
+            let suns = SUNS.map(|zenith| {
+                scope.spawn({
+                    let rows = &rows;
+                    move || rows(zenith)
+                })
+            });
+            for sun in suns {
+                table += &sun.join().unwrap_or_default();
+            }
+        });
     }
     if let Err(error) = std::fs::write(&file, table) {
         eprintln!("cannot write {file}: {error}");

@@ -1,68 +1,36 @@
 //! The sun's light in a cloud. WGSL twin: `light.wgsl`.
 //!
 //! Scattered once, light at a point is the sun's, less what lies between. What was scattered more often is taken as octaves of the
-//! same (Wrenninge, Kulla and Lundqvist 2013, *Oz: the great and volumetric*): each with less of the light, less extinction towards the
-//! sun, and a flatter phase function. The octaves' constants are fitted to the reference: `tests::truth` has the errors.
+//! same (Wrenninge, Kulla and Lundqvist 2013, *Oz: the great and volumetric*): each with its part of the light, less extinction
+//! towards the sun, and a flatter phase function. Two things differ. The octaves' constants are no geometric series, but each
+//! is fitted to the reference; and octaves grow with the root of density: where a cloud is thin there is less about a point
+//! that light could have come by. `tests/cloud_truth.rs` has the errors.
 
 use super::density::{Cloud, Weather};
-use super::march::{CloudRay, Marched, Sample, Steps};
+use super::march::{CloudRay, Marched, Steps};
 use super::phase::Phase;
 use super::span::Span;
 use super::volume::CloudVolume;
 use crate::profile::Light;
 use horizon_field::Real;
 
-/// Octaves of light.
-pub const OCTAVES: usize = 6;
+/// Octaves: light scattered once, and those of [`DIFFUSE`].
+pub const OCTAVES: u32 = 4;
 
-/// How octaves differ.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Octaves<T> {
-    /// How many, 1 to [`OCTAVES`]; 1 is light scattered once.
-    pub count: usize,
-    /// Light of each against the last.
-    pub light: T,
-    /// Extinction towards the sun of each against the last.
-    pub extinction: T,
-    /// The phase function's asymmetry of each against the last.
-    pub asymmetry: T,
+/// Octaves beyond the first: light, extinction towards the sun and asymmetry, each against light scattered once.
+pub const DIFFUSE: [[f64; 3]; 3] = [[1.03, 0.45, 0.9], [0.885, 0.08, 0.4], [0.491, 0.015, 0.0]];
+
+/// Light per irradiance and scattering, per steradian, behind an optical depth towards the sun, where it turns by an angle of cosine
+/// `nu`, in a cloud of a density from 0 to 1. Of `octaves`, 1 is light scattered once, [`OCTAVES`] is all.
+#[inline]
+pub fn source<T: Light>(phase: &Phase<T>, nu: T, depth: T, density: T, octaves: u32) -> T {
+    let once = phase.at(nu) * (-depth).exp();
+    let more = DIFFUSE.iter().take(octaves.clamp(1, OCTAVES) as usize - 1).fold(T::ZERO, |sum, octave| {
+        let [light, extinction, asymmetry] = octave.map(T::of);
+        sum + light * phase.flattened(asymmetry).at(nu) * (-extinction * depth).exp()
+    });
+    once + more * density.max(T::ZERO).sqrt()
 }
-
-impl<T: Real> Octaves<T> {
-    /// Scattered once.
-    pub fn once() -> Self {
-        Self { count: 1, light: T::ZERO, extinction: T::ONE, asymmetry: T::ONE }
-    }
-
-    /// As fitted.
-    pub fn fitted() -> Self {
-        Self { count: OCTAVES, light: T::of(LIGHT), extinction: T::of(EXTINCTION), asymmetry: T::of(ASYMMETRY) }
-    }
-
-    /// Light per irradiance and scattering, per steradian, behind an optical depth towards the sun, where it turns by an angle of
-    /// cosine `nu`.
-    #[inline]
-    pub fn source(&self, phase: &Phase<T>, nu: T, depth: T) -> T
-    where
-        T: Light,
-    {
-        let (mut sum, mut light, mut extinction, mut asymmetry) = (T::ZERO, T::ONE, T::ONE, T::ONE);
-        for _ in 0..self.count.min(OCTAVES) {
-            sum += light * phase.flattened(asymmetry).at(nu) * (-extinction * depth).exp();
-            light = light * self.light;
-            extinction = extinction * self.extinction;
-            asymmetry = asymmetry * self.asymmetry;
-        }
-        sum
-    }
-}
-
-/// [`Octaves::light`] as fitted.
-pub const LIGHT: f64 = 0.5;
-/// [`Octaves::extinction`] as fitted.
-pub const EXTINCTION: f64 = 0.4;
-/// [`Octaves::asymmetry`] as fitted.
-pub const ASYMMETRY: f64 = 0.6;
 
 /// Optical depth along a ray towards the sun, through its spans up to `reach` metres. Samples, at least 1, lie closer near its start,
 /// where depth matters most.
@@ -96,8 +64,8 @@ pub struct CloudQuality<T> {
     pub jitter: T,
     /// Of what lies behind: less is nothing.
     pub least: T,
-    /// Light scattered more than once.
-    pub octaves: Octaves<T>,
+    /// Octaves of light, 1 to [`OCTAVES`]; 1 is light scattered once.
+    pub octaves: u32,
 }
 
 /// A cloud seen along a ray, as far as `cut` says, under a sun in the direction `sun` of an irradiance of 1. `weather` is asked at
@@ -124,16 +92,15 @@ pub fn seen<T: Light>(
             |distance| ray.empty_until(cloud, volume, distance, most),
             |distance| {
                 let point = ray.point(distance);
-                let extinction = cloud.extinction * cloud.density(volume, &point, &weather(point.at));
-                if extinction <= T::ZERO {
-                    return Sample { extinction, source: [T::ZERO; 3] };
-                }
-                let from = CloudRay { from: point, toward: sun, ..*ray };
+                cloud.extinction * cloud.density(volume, &point, &weather(point.at))
+            },
+            |distance, extinction| {
+                let from = CloudRay { from: ray.point(distance), toward: sun, ..*ray };
                 let depth = sun_depth(from.spans(cloud), quality.sun_samples, quality.reach, |distance| {
                     let point = from.point(distance);
                     cloud.extinction * cloud.density(volume, &point, &weather(point.at))
                 });
-                Sample { extinction, source: [extinction * quality.octaves.source(&cloud.phase, nu, depth); 3] }
+                [source(&cloud.phase, nu, depth, extinction / cloud.extinction, quality.octaves); 3]
             },
         );
     }

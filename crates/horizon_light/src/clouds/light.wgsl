@@ -1,9 +1,10 @@
 // The sun's light in a cloud; the twin of light.rs, where the reasons stand.
 
-const CLOUD_OCTAVES: u32 = 6u;
-const CLOUD_OCTAVE_LIGHT: f32 = 0.5;
-const CLOUD_OCTAVE_EXTINCTION: f32 = 0.4;
-const CLOUD_OCTAVE_ASYMMETRY: f32 = 0.6;
+const CLOUD_OCTAVES: u32 = 4u;
+// Octaves beyond the first: light, extinction towards the sun, asymmetry.
+const CLOUD_DIFFUSE_1: vec3<f32> = vec3<f32>(1.03, 0.45, 0.9);
+const CLOUD_DIFFUSE_2: vec3<f32> = vec3<f32>(0.885, 0.08, 0.4);
+const CLOUD_DIFFUSE_3: vec3<f32> = vec3<f32>(0.491, 0.015, 0.0);
 
 struct CloudQuality {
     // Cells over each span, and samples towards the sun.
@@ -19,19 +20,24 @@ struct CloudQuality {
     octaves: u32,
 }
 
+fn cloud_octave(phase: CloudPhase, nu: f32, depth: f32, octave: vec3<f32>) -> f32 {
+    return octave.x * cloud_phase(cloud_phase_flattened(phase, octave.z), nu) * exp(-octave.y * depth);
+}
+
 // Light per irradiance and scattering, per steradian, behind an optical depth towards the sun.
-fn cloud_source(phase: CloudPhase, nu: f32, depth: f32, octaves: u32) -> f32 {
-    var sum = 0.0;
-    var light = 1.0;
-    var extinction = 1.0;
-    var asymmetry = 1.0;
-    for (var i = 0u; i < min(octaves, CLOUD_OCTAVES); i++) {
-        sum += light * cloud_phase(cloud_phase_flattened(phase, asymmetry), nu) * exp(-extinction * depth);
-        light *= CLOUD_OCTAVE_LIGHT;
-        extinction *= CLOUD_OCTAVE_EXTINCTION;
-        asymmetry *= CLOUD_OCTAVE_ASYMMETRY;
+fn cloud_source(phase: CloudPhase, nu: f32, depth: f32, density: f32, octaves: u32) -> f32 {
+    let once = cloud_phase(phase, nu) * exp(-depth);
+    var more = 0.0;
+    if octaves > 1u {
+        more += cloud_octave(phase, nu, depth, CLOUD_DIFFUSE_1);
     }
-    return sum;
+    if octaves > 2u {
+        more += cloud_octave(phase, nu, depth, CLOUD_DIFFUSE_2);
+    }
+    if octaves > 3u {
+        more += cloud_octave(phase, nu, depth, CLOUD_DIFFUSE_3);
+    }
+    return once + more * sqrt(max(density, 0.0));
 }
 
 // Optical depth from the ray's start towards its end, within a reach; samples lie closer near the start.
@@ -57,8 +63,8 @@ fn cloud_sun_depth(cloud: Cloud, ray: CloudRay, samples: u32, reach: f32) -> f32
 }
 
 // A cloud along a ray, from cut.x to cut.y metres, under a sun in the direction `sun` of an irradiance of 1, going on from what was
-// marched before. light.x of the result is the sun's; .y is extinction times what is left of it, for ambient light: a sky of
-// radiance 1 all round adds as much as .y.
+// marched before. light.x of the result is the sun's; light.y is 1 - transmittance, summed like it: what even light of radiance 1 from
+// all sides adds.
 fn cloud_march(
     before: CloudMarched, cloud: Cloud, ray: CloudRay, cut: vec2<f32>, sun: vec3<f32>, quality: CloudQuality,
 ) -> CloudMarched {
@@ -93,14 +99,17 @@ fn cloud_march(
                 continue;
             }
             let point = cloud_point(ray, middle);
-            let extinction = cloud.extinction * cloud_density(cloud, point, cloud_weather(cloud, point.at));
+            let density = cloud_density(cloud, point, cloud_weather(cloud, point.at));
+            let extinction = cloud.extinction * density;
             if extinction <= 0.0 {
                 marched.samples += 1u;
                 continue;
             }
-            let depth = cloud_sun_depth(cloud, CloudRay(point, sun, ray.radius), quality.sun_samples, quality.reach);
-            let source = extinction * cloud_source(cloud.phase, nu, depth, quality.octaves);
-            marched = cloud_passed(marched, extinction, vec3<f32>(source, extinction, 0.0), length, middle);
+            let front = span.x + start + (end - start) * cloud_seen_at(extinction * (end - start));
+            let towards_sun = CloudRay(cloud_point(ray, front), sun, ray.radius);
+            let depth = cloud_sun_depth(cloud, towards_sun, quality.sun_samples, quality.reach);
+            let source = cloud_source(cloud.phase, nu, depth, density, quality.octaves);
+            marched = cloud_passed(marched, extinction, vec3<f32>(source, 1.0, 0.0), length, middle);
         }
     }
     return marched;

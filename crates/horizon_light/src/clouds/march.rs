@@ -3,7 +3,7 @@
 //! The ray is cut into cells that are fixed to the span of the layer that it crosses, not to where it starts or what ends it, and the
 //! medium is taken as even in each. So transmittance is the product of its parts wherever a segment is divided, and a mesh that moves
 //! in a cloud shifts no sample. Light of an even cell is integrated in closed form, S(1 − e^{−σs})/σ: at any step it neither gains
-//! nor loses energy.
+//! nor loses energy. The source S is taken where the cell is seen from in the mean: near its front, if it is opaque.
 
 use super::density::{Cloud, CloudPoint, Weather};
 use super::layer::CloudModel;
@@ -124,13 +124,10 @@ impl<T: Real> Steps<T> {
     }
 }
 
-/// The medium in a cell.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sample<T> {
-    /// Extinction, per metre.
-    pub extinction: T,
-    /// Light that it sends towards the eye, per metre.
-    pub source: [T; 3],
+/// Where in a cell of optical depth `x` what leaves it comes from in the mean: 1/x − 1/(eˣ − 1), from ½ to 0.
+#[inline]
+pub fn seen_at<T: Light>(x: T) -> T {
+    if x < T::of(0.1) { T::of(0.5) - x * T::of(1.0 / 12.0) } else { T::ONE / x - T::ONE / (x.exp() - T::ONE) }
 }
 
 /// What a ray met.
@@ -160,8 +157,9 @@ impl<T: Real> Default for Marched<T> {
 }
 
 impl<T: Light> Marched<T> {
-    /// Goes on through the part of `span` that lies in `cut`, until less than `least` is left of what lies behind. `sample` is
-    /// asked at distances along the ray; `empty_until` says how far there is nothing.
+    /// Goes on through the part of `span` that lies in `cut`, until less than `least` is left of what lies behind. At distances along
+    /// the ray, `empty_until` says how far there is nothing; `extinction`, per metre, is asked in the middle of a cell; `source`, light
+    /// sent towards the eye per extinction, where the cell is seen, with the extinction found.
     pub fn through(
         &mut self,
         span: Span<T>,
@@ -169,7 +167,8 @@ impl<T: Light> Marched<T> {
         steps: &Steps<T>,
         least: T,
         mut empty_until: impl FnMut(T) -> T,
-        mut sample: impl FnMut(T) -> Sample<T>,
+        mut extinction: impl FnMut(T) -> T,
+        mut source: impl FnMut(T, T) -> [T; 3],
     ) {
         let [near, far] = [span[0].max(cut[0]), span[1].min(cut[1])];
         if far <= near {
@@ -195,15 +194,16 @@ impl<T: Light> Marched<T> {
                 k = k.max(steps.cell((empty - span[0]).max(T::ZERO)));
                 continue;
             }
-            let Sample { extinction, source } = sample(middle);
+            let found = extinction(middle);
             self.samples += 1;
-            if extinction <= T::ZERO {
+            if found <= T::ZERO {
                 continue;
             }
-            let depth = extinction * (to - from);
-            let gathered = self.transmittance * (to - from) * faded(depth);
-            for (light, source) in self.light.iter_mut().zip(source) {
-                *light += gathered * source;
+            let light = source(span[0] + start + (end - start) * seen_at(found * (end - start)), found);
+            let depth = found * (to - from);
+            let gathered = self.transmittance * depth * faded(depth);
+            for (sum, light) in self.light.iter_mut().zip(light) {
+                *sum += gathered * light;
             }
             let left = self.transmittance * (-depth).exp();
             moment += (self.transmittance - left) * middle;

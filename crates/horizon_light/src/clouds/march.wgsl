@@ -133,7 +133,15 @@ fn cloud_faded(x: f32) -> f32 {
     return (1.0 - exp(-x)) / x;
 }
 
-// One more cell of a march: `length` of it are passed.
+// Where in a cell of optical depth x what leaves it comes from in the mean.
+fn cloud_seen_at(x: f32) -> f32 {
+    if x < 0.1 {
+        return 0.5 - x / 12.0;
+    }
+    return 1.0 / x - 1.0 / (exp(min(x, 80.0)) - 1.0);
+}
+
+// One more cell of a march: `length` of it are passed, which send `source` per extinction.
 fn cloud_passed(marched: CloudMarched, extinction: f32, source: vec3<f32>, length: f32, middle: f32) -> CloudMarched {
     let depth = extinction * length;
     let left = marched.transmittance * exp(-depth);
@@ -141,7 +149,7 @@ fn cloud_passed(marched: CloudMarched, extinction: f32, source: vec3<f32>, lengt
     let now = 1.0 - left;
     let moment = marched.depth * met + (marched.transmittance - left) * middle;
     return CloudMarched(
-        marched.light + marched.transmittance * length * cloud_faded(depth) * source,
+        marched.light + marched.transmittance * depth * cloud_faded(depth) * source,
         left,
         select(0.0, moment / max(now, 1e-30), now > 0.0),
         marched.samples + 1u,

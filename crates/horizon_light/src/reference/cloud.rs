@@ -35,6 +35,9 @@ pub struct Lit<'a, M> {
 /// Batches that a standard error is found from.
 const BATCHES: u64 = 32;
 
+/// Paths that judge how many are needed. Paths that come near the sun's direction are rare and bright: few say little of them.
+const PILOT: u64 = 8_192;
+
 /// Below this a transmittance is carried on by lot.
 const FAINT: f64 = 0.1;
 
@@ -116,9 +119,9 @@ impl<M: Matter> Lit<'_, M> {
     /// [`Self::radiance`] with as many paths as bring the standard error below `relative` of the mean, up to `most`. How many is judged
     /// by other paths than those that count.
     pub fn radiance_within(&self, from: [f64; 3], toward: [f64; 3], relative: f64, most: u64, seed: u64) -> Estimate {
-        let pilot = self.radiance(from, toward, 512, seed ^ 0x5eed);
+        let pilot = self.radiance(from, toward, PILOT, seed ^ 0x5eed);
         let excess = pilot.standard_error / (relative * pilot.mean).max(f64::MIN_POSITIVE);
-        let paths = ((512.0 * 1.3 * excess * excess) as u64).clamp(512, most);
+        let paths = ((PILOT as f64 * 1.3 * excess * excess) as u64).clamp(PILOT, most.max(PILOT));
         self.radiance(from, toward, paths, seed)
     }
 

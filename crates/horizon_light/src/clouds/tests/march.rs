@@ -1,7 +1,7 @@
 //! Steps neither gain nor lose light, wherever a segment is divided; empty space is skipped without a trace.
 
 use super::density::{MODELS, VOLUME};
-use crate::clouds::march::{CloudRay, Marched, Sample, Steps};
+use crate::clouds::march::{CloudRay, Marched, Steps, seen_at};
 use crate::clouds::{Cloud, CloudLayer, CloudModel, CloudPoint};
 use crate::reference::random::Random;
 use horizon_field::Place;
@@ -16,10 +16,8 @@ fn glowing(cloud: &Cloud<f64>, ray: &CloudRay<f64>, cut: [f64; 2], steps: u32, s
             &Steps::even(span, steps, 0.3),
             0.0,
             |d| if skips { ray.empty_until(cloud, &VOLUME, d, &cloud.weather) } else { d },
-            |d| {
-                let extinction = cloud.extinction * cloud.density(&VOLUME, &ray.point(d), &cloud.weather);
-                Sample { extinction, source: [extinction; 3] }
-            },
+            |d| cloud.extinction * cloud.density(&VOLUME, &ray.point(d), &cloud.weather),
+            |_, _| [1.0; 3],
         );
     }
     marched
@@ -75,8 +73,15 @@ fn naive_steps_gain_light() {
         gained.push((0..steps).map(|k| extinction * step * (-extinction * step * f64::from(k)).exp()).sum::<f64>());
         let mut ours = Marched::<f64>::new();
         let span = [20.0, 20.0 + length];
-        let even = Sample { extinction, source: [extinction; 3] };
-        ours.through(span, [0.0, 1e9], &Steps::even(span, steps as u32, 0.7), 0.0, |d| d, |_| even);
+        ours.through(
+            span,
+            [0.0, 1e9],
+            &Steps::even(span, steps as u32, 0.7),
+            0.0,
+            |d| d,
+            |_| extinction,
+            |_, _| [1.0; 3],
+        );
         assert!((ours.transmittance - truth).abs() < 1e-12 && (ours.light[0] - (1.0 - truth)).abs() < 1e-12);
     }
     assert!(errors[0] > 0.005 && errors[2] < errors[0], "{errors:?}");
@@ -133,10 +138,28 @@ fn cells_follow_each_other() {
         let mut places = Vec::new();
         let even = |d: f32, places: &mut Vec<f32>| {
             places.push(d);
-            Sample { extinction: 1e-4, source: [0.0; 3] }
+            1e-4
         };
-        seen.through([100.0, 2_100.0], [0.0, 1e9], &steps, 0.0, |d| d, |d| even(d, &mut places));
+        seen.through([100.0, 2_100.0], [0.0, 1e9], &steps, 0.0, |d| d, |d| even(d, &mut places), |_, _| [0.0; 3]);
         assert!(places.windows(2).all(|pair| pair[1] > pair[0]), "{places:?}");
         assert!((seen.transmittance - (-0.2_f32).exp()).abs() < 1e-5, "{growth}: {}", seen.transmittance);
+    }
+}
+
+/// A cell's source is asked where it is seen: at the mean of what leaves it.
+#[test]
+fn cells_are_seen_at_their_centroid() {
+    for x in [0.0_f64, 1e-3, 0.0999, 0.1001, 1.0, 5.0, 300.0, 1e4] {
+        let n = 200_000;
+        let (mut sum, mut moment) = (0.0, 0.0);
+        for i in 0..n {
+            let t = (f64::from(i) + 0.5) / f64::from(n);
+            sum += (-x * t).exp();
+            moment += t * (-x * t).exp();
+        }
+        if sum > 1.0 {
+            assert!((seen_at(x) - moment / sum).abs() < 1e-4, "{x}: {} {}", seen_at(x), moment / sum);
+        }
+        assert!((f64::from(seen_at(x as f32)) - seen_at(x)).abs() < 1e-5, "{x}");
     }
 }

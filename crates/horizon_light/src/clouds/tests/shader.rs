@@ -74,10 +74,10 @@ fn twins_share_their_constants() {
     has("CLOUD_FARTHEST", &[span::FARTHEST]);
     has("CLOUD_MOST_STEPS", &[f64::from(march::MOST_STEPS)]);
     has("CLOUD_SKIP_MIP", &[march::SKIP_MIP as f64]);
-    has("CLOUD_OCTAVES", &[light::OCTAVES as f64]);
-    has("CLOUD_OCTAVE_LIGHT", &[light::LIGHT]);
-    has("CLOUD_OCTAVE_EXTINCTION", &[light::EXTINCTION]);
-    has("CLOUD_OCTAVE_ASYMMETRY", &[light::ASYMMETRY]);
+    has("CLOUD_OCTAVES", &[f64::from(light::OCTAVES)]);
+    for (i, octave) in light::DIFFUSE.iter().enumerate() {
+        has(&format!("CLOUD_DIFFUSE_{}", i + 1), octave);
+    }
 }
 
 /// Names that a host's own cannot meet, and no directives.
