@@ -93,10 +93,10 @@ fn the_cumulus_within_its_bounds() {
     let (cloud, volume) = (Cloud::<f32>::new(&CUMULUS, &Place::ORIGIN, 0.0), SCENES.volume());
     let truths = SUNS.map(|zenith| truth(Scene::Cumulus, zenith));
     let mut last = [f64::INFINITY; 2];
-    for (steps, sun_samples) in [(32, 4), (64, 6), (128, 8), (256, 12), (1_024, 48)] {
+    for (steps, sun_samples) in [(32, 4), (64, 6), (128, 8), (256, 12), (512, 24)] {
         let mut work = 0;
         let [once, all] = [(1, 0), (OCTAVES, 1)].map(|(octaves, i)| {
-            let quality = CloudQuality { steps, sun_samples, reach: 2_500.0, jitter: 0.5, least: 1e-3, octaves };
+            let quality = CloudQuality { octaves, ..CloudQuality::new(&cloud, steps, sun_samples) };
             let mut pairs = Vec::new();
             for (zenith, truth) in SUNS.into_iter().zip(&truths) {
                 let before = pairs.len();

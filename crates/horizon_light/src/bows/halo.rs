@@ -109,12 +109,9 @@ pub(super) fn spread(bins: &mut [f64], step: f64, [a, b]: [f64; 2], light: f64) 
         return;
     }
     let width = (high - low).max(1e-9);
-    let last = bins.len();
-    for i in low as usize..=(high as usize).min(last.saturating_sub(1)) {
-        if i < last {
-            let part = (high.min((i + 1) as f64) - low.max(i as f64)).max(0.0);
-            bins[i] += if high - low < 1e-9 { light } else { light * part / width };
-        }
+    for (i, bin) in bins.iter_mut().enumerate().skip(low as usize).take(high as usize - low as usize + 1) {
+        let part = (high.min((i + 1) as f64) - low.max(i as f64)).max(0.0);
+        *bin += if high - low < 1e-9 { light } else { light * part / width };
     }
 }
 

@@ -16,8 +16,8 @@ use core::f64::consts::PI;
 /// round.
 pub const RADII: [f64; 2] = [1e-5, 1e-3];
 
-/// Half the second derivative of the turning at the caustic: (p² − 1)²/p² · √(p² − n²)/(n² − 1)^{3/2}, p = k + 1, over √(p² − 1)⁰ (van
-/// de Hulst 1957, section 13.23).
+/// Half the second derivative of the turning at the caustic: (p² − 1)²/p² · √(p² − n²)/(n² − 1)^{3/2}, p = k + 1 (van de Hulst 1957,
+/// section 13.23).
 pub fn curvature(n: f64, k: u32) -> f64 {
     let p = f64::from(k + 1);
     let square = (n - 1.0) * (n + 1.0);

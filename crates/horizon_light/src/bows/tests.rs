@@ -100,7 +100,7 @@ fn mie(n: f64, x: f64, angles: &[f64]) -> Vec<f64> {
     let cosines: Vec<f64> = angles.iter().map(|a| -a.cos()).collect();
     let mut polar = vec![[0.0_f64, 1.0]; angles.len()];
     let mut sums = vec![[0.0_f64; 4]; angles.len()];
-    for k in 1..=terms {
+    for (k, slope) in slope.iter().enumerate().take(terms + 1).skip(1) {
         let f = k as f64;
         let next = |[a, b]: [f64; 2]| [b, (2.0 * f - 1.0) / x * b - a];
         (psi, chi) = (next(psi), next(chi));
@@ -111,7 +111,7 @@ fn mie(n: f64, x: f64, angles: &[f64]) -> Vec<f64> {
             let square = p * p + q * q;
             [p * p / square, p * q / square]
         };
-        let (a, b) = (part(slope[k] / n), part(slope[k] * n));
+        let (a, b) = (part(slope / n), part(slope * n));
         let weight = (2.0 * f + 1.0) / (f * (f + 1.0));
         for ((cosine, polar), sum) in cosines.iter().zip(&mut polar).zip(&mut sums) {
             let [before, pi] = *polar;

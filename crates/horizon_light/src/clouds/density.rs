@@ -35,7 +35,7 @@ pub struct CloudPoint<T> {
     pub altitude: T,
 }
 
-/// A [`CloudLayer`] at a moment, seen from a place; laid out as the shader's `Cloud`.
+/// A [`CloudLayer`] at a moment, seen from a place; the shader's `Cloud`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cloud<T> {
     /// Where shapes are, in their periods, for a point at the place itself: 0 to 1.
@@ -173,5 +173,24 @@ impl<T: Real> Cloud<T> {
     pub fn block(u: [T; 3], mip: usize) -> [i64; 3] {
         let blocks = T::of_u32((TEXELS >> mip.min(MIPS - 1)) as u32);
         u.map(|u| (u * blocks).floor().to_i64())
+    }
+}
+
+impl Cloud<f32> {
+    /// The shader's `Cloud`, word by word.
+    pub fn words(&self) -> [u32; 20] {
+        let [a, b, c] = self.offset.map(f32::to_bits);
+        let [d, e, f] = self.detail_offset.map(f32::to_bits);
+        let Phase { forward, other, alpha, share } = self.phase;
+        let [forward, other, alpha, share] = [forward, other, alpha, share].map(f32::to_bits);
+        let [per_shape, per_detail, base, thickness, extinction, softness, erosion] =
+            [self.per_shape, self.per_detail, self.base, self.thickness, self.extinction, self.softness, self.erosion]
+                .map(f32::to_bits);
+        let [coverage, kind] = [self.weather.coverage, self.weather.kind].map(f32::to_bits);
+        let model = self.model as u32;
+        [
+            a, b, c, per_shape, d, e, f, per_detail, base, thickness, extinction, softness, erosion, model, coverage,
+            kind, forward, other, alpha, share,
+        ]
     }
 }

@@ -9,7 +9,7 @@
 use super::density::{Cloud, Weather};
 use super::march::{CloudRay, Marched, Steps};
 use super::phase::Phase;
-use super::span::Span;
+use super::span::{FARTHEST, Span};
 use super::volume::CloudVolume;
 use crate::profile::Light;
 use horizon_field::Real;
@@ -51,6 +51,9 @@ pub fn sun_depth<T: Real>(spans: [Span<T>; 2], samples: u32, reach: T, mut extin
     depth
 }
 
+/// Optical depth of dense cloud towards the sun beyond which nothing is looked for.
+pub const REACH: f64 = 25.0;
+
 /// How a ray is marched.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CloudQuality<T> {
@@ -58,7 +61,7 @@ pub struct CloudQuality<T> {
     pub steps: u32,
     /// Samples towards the sun.
     pub sun_samples: u32,
-    /// How far is looked towards the sun, in metres.
+    /// How far is looked towards the sun, in metres: [`REACH`] over extinction is enough; more only sets samples apart.
     pub reach: T,
     /// By which part of a cell all are shifted: 0 to 1.
     pub jitter: T,
@@ -66,6 +69,14 @@ pub struct CloudQuality<T> {
     pub least: T,
     /// Octaves of light, 1 to [`OCTAVES`]; 1 is light scattered once.
     pub octaves: u32,
+}
+
+impl<T: Real> CloudQuality<T> {
+    /// All light in a cloud, by so many cells over a span and samples towards the sun.
+    pub fn new(cloud: &Cloud<T>, steps: u32, sun_samples: u32) -> Self {
+        let reach = T::of(REACH) / cloud.extinction.max(T::of(REACH / FARTHEST));
+        Self { steps, sun_samples, reach, jitter: T::of(0.5), least: T::of(1e-3), octaves: OCTAVES }
+    }
 }
 
 /// A cloud seen along a ray, as far as `cut` says, under a sun in the direction `sun` of an irradiance of 1. `weather` is asked at

@@ -7,7 +7,7 @@
 
 use super::density::{Cloud, CloudPoint, Weather};
 use super::layer::CloudModel;
-use super::span::Span;
+use super::span::{FARTHEST, Span};
 use super::volume::{CloudVolume, TEXELS};
 use crate::geometry::advance;
 use crate::models::scatter::faded;
@@ -68,10 +68,9 @@ impl<T: Real> CloudRay<T> {
         let point = self.point(distance);
         let blocks = T::of_u32((TEXELS >> SKIP_MIP) as u32);
         let u = cloud.shape_at(&point).map(|u| u * blocks);
-        let mut until = T::of(f64::MAX.min(3e38));
-        for k in 0..3 {
-            let speed = self.toward[k] * cloud.per_shape * blocks;
-            let part = u[k] - u[k].floor();
+        let mut until = T::of(FARTHEST);
+        for (u, toward) in u.into_iter().zip(self.toward) {
+            let (speed, part) = (toward * cloud.per_shape * blocks, u - u.floor());
             if speed > T::ZERO {
                 until = until.min((T::ONE - part) / speed);
             } else if speed < T::ZERO {

@@ -1,6 +1,7 @@
 //! The WGSL is valid as a host joins it, and has its twins' constants.
 
-use crate::clouds::{WGSL, density, light, march, span, volume};
+use crate::clouds::{Cloud, CloudLayer, CloudModel, WGSL, density, light, march, span, volume};
+use horizon_field::Place;
 
 const HOST: &str = "
 @group(0) @binding(0) var<uniform> cloud: Cloud;
@@ -77,6 +78,43 @@ fn twins_share_their_constants() {
     has("CLOUD_OCTAVES", &[f64::from(light::OCTAVES)]);
     for (i, octave) in light::DIFFUSE.iter().enumerate() {
         has(&format!("CLOUD_DIFFUSE_{}", i + 1), octave);
+    }
+}
+
+/// The host's words are the shader's fields, in order and without a gap.
+#[test]
+fn words_are_laid_out_as_the_shader_s() {
+    let source = [include_str!("../../geometry.wgsl"), WGSL, HOST].concat();
+    let module =
+        naga::front::wgsl::parse_str(&source).unwrap_or_else(|error| panic!("{}", error.emit_to_string(&source)));
+    let found = module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some("Cloud")).expect("the shader's struct");
+    let naga::TypeInner::Struct { members, span } = &found.1.inner else { panic!("no struct") };
+    let layer = CloudLayer { model: CloudModel::Slab, ..CloudLayer::CUMULUS };
+    let cloud = Cloud::<f32>::new(&layer, &Place::from_metres([1.0, 2.0, 3.0]), 4.0);
+    let words = cloud.words();
+    assert_eq!(*span as usize, 4 * words.len());
+    let at = |name: &str| {
+        let member = members.iter().find(|member| member.name.as_deref() == Some(name)).expect(name);
+        words[member.offset as usize / 4]
+    };
+    for (name, value) in [
+        ("offset", cloud.offset[0]),
+        ("per_shape", cloud.per_shape),
+        ("detail_offset", cloud.detail_offset[0]),
+        ("per_detail", cloud.per_detail),
+        ("base", cloud.base),
+        ("thickness", cloud.thickness),
+        ("extinction", cloud.extinction),
+        ("softness", cloud.softness),
+        ("erosion", cloud.erosion),
+        ("weather", cloud.weather.coverage),
+        ("phase", cloud.phase.forward),
+    ] {
+        assert_eq!(at(name), value.to_bits(), "{name}");
+    }
+    assert_eq!(at("model"), 1);
+    for (name, model) in [("SHEET", CloudModel::Sheet), ("SLAB", CloudModel::Slab), ("BILLOW", CloudModel::Billow)] {
+        assert!(WGSL.contains(&format!("const CLOUD_{name}: u32 = {}u;", model as u32)));
     }
 }
 

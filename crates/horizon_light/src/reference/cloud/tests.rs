@@ -31,9 +31,10 @@ fn a_half_space_reflects_what_chandrasekhar_says() {
     let phase = Phase { forward: 0.0, other: 0.0, alpha: 0.0, share: 0.0 };
     // Deep, but not endless: beyond 300 mean paths 0.5 % is missing.
     let matter = Even { top: 300.0 };
-    for (mu, mu_s, h) in [(1.0, 1.0, 2.9078 * 2.9078), (1.0, 0.5, 2.9078 * 2.0128), (0.5, 0.5, 2.0128 * 2.0128)] {
-        let lit = Lit { matter: &matter, phase, sun: [(1.0 - mu_s * mu_s as f64).sqrt(), mu_s, 0.0] };
-        let found = lit.radiance([0.0, 400.0, 0.0], [0.0, -mu, (1.0 - mu * mu as f64).sqrt()], 12_000, 1);
+    for (mu, mu_s, h) in [(1.0_f64, 1.0_f64, 2.9078 * 2.9078), (1.0, 0.5, 2.9078 * 2.0128), (0.5, 0.5, 2.0128 * 2.0128)]
+    {
+        let lit = Lit { matter: &matter, phase, sun: [(1.0 - mu_s * mu_s).sqrt(), mu_s, 0.0] };
+        let found = lit.radiance([0.0, 400.0, 0.0], [0.0, -mu, (1.0 - mu * mu).sqrt()], 12_000, 1);
         let truth = mu_s * h / (4.0 * core::f64::consts::PI * (mu + mu_s));
         let off = (found.mean - 0.997 * truth).abs();
         assert!(off < 4.0 * found.standard_error + 0.004 * truth, "{mu} {mu_s}: {found:?}, not {truth}");
