@@ -1,5 +1,5 @@
 //! Writes the truth that models of clouds are measured against: light scattered once, by quadrature, and all light, by paths, along
-//! the rays of `reference::cloud::scenes`. Some twenty minutes on one core.
+//! the rays of `reference::cloud::scenes`. Some fifteen minutes of one core, over three threads.
 //!
 //! `cargo run -p horizon_light --example cloud_truth -- assets/truth/clouds.csv`
 

@@ -141,7 +141,8 @@ fn twenty_four_rows_are_computed_again() {
         let [from, toward] = scene.rays()[ray];
         let matter = SCENES.matter(scene);
         let light = SCENES.lit(&matter, zenith);
-        let again = light.radiance(from, toward, 1_500, 1_000 + i as u64);
+        // Paths that leave near the sun's direction are rare and bright: of 1 500 the standard error is found too small.
+        let again = light.radiance(from, toward, 40_000, 1_000 + i as u64);
         let off = (again.mean - mean) / again.standard_error.hypot(error);
         assert!(off.abs() < 5.0, "{scene:?}, sun {zenith}°, ray {ray}: {again:?}, not {mean} ± {error}");
         squares += off * off;

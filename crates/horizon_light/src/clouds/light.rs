@@ -4,7 +4,11 @@
 //! same (Wrenninge, Kulla and Lundqvist 2013, *Oz: the great and volumetric*): each with its part of the light, less extinction
 //! towards the sun, and a flatter phase function. Two things differ. The octaves' constants are no geometric series, but each
 //! is fitted to the reference; and octaves grow with the root of density: where a cloud is thin there is less about a point
-//! that light could have come by. `tests/cloud_truth.rs` has the errors.
+//! that light could have come by.
+//!
+//! Against the reference (`tests/cloud_truth.rs`) the cumulus' light is off by 8 % of its root mean square over three suns together.
+//! That is mostly of what is bright: of suns 25°, 60° and 80° from the zenith alone it is off by 26, 23 and 5 %. Octaves know how much
+//! cloud lies towards the sun, not what lies to the sides: even slabs, endless there, are up to 44 % off.
 
 use super::density::{Cloud, Weather};
 use super::march::{CloudRay, Marched, Steps};
@@ -18,7 +22,7 @@ use horizon_field::Real;
 pub const OCTAVES: u32 = 4;
 
 /// Octaves beyond the first: light, extinction towards the sun and asymmetry, each against light scattered once.
-pub const DIFFUSE: [[f64; 3]; 3] = [[1.03, 0.45, 0.9], [0.885, 0.08, 0.4], [0.491, 0.015, 0.0]];
+pub const DIFFUSE: [[f64; 3]; 3] = [[1.03, 0.45, 0.9], [0.889, 0.08, 0.4], [0.485, 0.015, 0.0]];
 
 /// Light per irradiance and scattering, per steradian, behind an optical depth towards the sun, where it turns by an angle of cosine
 /// `nu`, in a cloud of a density from 0 to 1. Of `octaves`, 1 is light scattered once, [`OCTAVES`] is all.

@@ -3,8 +3,8 @@
 const CLOUD_OCTAVES: u32 = 4u;
 // Octaves beyond the first: light, extinction towards the sun, asymmetry.
 const CLOUD_DIFFUSE_1: vec3<f32> = vec3<f32>(1.03, 0.45, 0.9);
-const CLOUD_DIFFUSE_2: vec3<f32> = vec3<f32>(0.885, 0.08, 0.4);
-const CLOUD_DIFFUSE_3: vec3<f32> = vec3<f32>(0.491, 0.015, 0.0);
+const CLOUD_DIFFUSE_2: vec3<f32> = vec3<f32>(0.889, 0.08, 0.4);
+const CLOUD_DIFFUSE_3: vec3<f32> = vec3<f32>(0.485, 0.015, 0.0);
 
 struct CloudQuality {
     // Cells over each span, and samples towards the sun.
