@@ -7,6 +7,8 @@
 
 #![warn(missing_docs)]
 
+pub mod bows;
+pub mod clouds;
 pub mod geometry;
 pub mod medium;
 pub mod models;

@@ -4,6 +4,7 @@
 use crate::geometry::{advance, advance_sun, air_interval};
 use crate::medium::Medium;
 
+pub mod cloud;
 pub mod first_leg;
 pub mod harmonics;
 pub mod monte_carlo;

@@ -1,6 +1,6 @@
 //! Lattice noise in the plane and in space: value, gradient, simplex and Worley, each with its exact gradient, proven
 //! bounds, and its WGSL twin beside it. All are generic over `f32` and `f64`, and use the same order of operations as
-//! the twin. Nothing here is periodic, and no coordinate is absolute: see [`crate::lattice`].
+//! the twin. Nothing here is periodic but [`periodic`], and no coordinate is absolute: see [`crate::lattice`].
 
 mod axes;
 mod bounds;
@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 
 pub use bounds::BasisBounds;
 pub(crate) use lanes::{HighWords, Lanes, high_hashes};
-pub(crate) use periodic::periodic;
+pub use periodic::{PERIODIC_WGSL, periodic, periodic_worley};
 
 use axes::{Axes, Cell};
 

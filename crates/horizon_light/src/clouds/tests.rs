@@ -1,0 +1,6 @@
+mod density;
+mod light;
+mod march;
+mod parameters;
+mod shader;
+mod span;
