@@ -34,14 +34,27 @@ pub struct Grove<'a> {
     felled: &'a Felled,
     wind: Wind,
     tallest: f64,
-    tiles: HashMap<[i64; 2], Tile>,
+    tiles: Vec<Tile>,
+    /// Which one is where.
+    index: HashMap<[i64; 2], usize>,
+    /// The last one that was asked for: mostly it is the next one, too.
+    last: Option<([i64; 2], usize)>,
 }
 
 impl<'a> Grove<'a> {
     /// The forest, without wind.
     pub fn new(planting: &'a Planting, ground: PlantGround<'a>, felled: &'a Felled) -> Self {
         let tallest = planting.tallest();
-        Self { planting, ground, felled, wind: Wind::default(), tallest, tiles: HashMap::new() }
+        Self {
+            planting,
+            ground,
+            felled,
+            wind: Wind::default(),
+            tallest,
+            tiles: Vec::new(),
+            index: HashMap::new(),
+            last: None,
+        }
     }
 
     /// The same in a wind.
@@ -65,12 +78,18 @@ impl<'a> Grove<'a> {
         let key = cell.map(|cell| cell.div_euclid(TILE));
         let Self { planting, ground, felled, tallest, .. } = *self;
         let corner = key.map(|key| key.wrapping_mul(TILE));
-        let tile = self.tiles.entry(key).or_insert_with(|| {
-            let half = 0.5 * TILE as f64 * planting.forest().spacing;
-            let anchor = cell_corner(corner, planting.forest().spacing);
-            let bound = Anchored::stamped(ground.field, ground.stamps, &anchor).bound([half; 2], [half; 2]);
-            Tile { ground: [bound.low, bound.high], plants: None }
-        });
+        let at = match self.last {
+            Some((last, at)) if last == key => at,
+            _ => *self.index.entry(key).or_insert_with(|| {
+                let half = 0.5 * TILE as f64 * planting.forest().spacing;
+                let anchor = cell_corner(corner, planting.forest().spacing);
+                let bound = Anchored::stamped(ground.field, ground.stamps, &anchor).bound([half; 2], [half; 2]);
+                self.tiles.push(Tile { ground: [bound.low, bound.high], plants: None });
+                self.tiles.len() - 1
+            }),
+        };
+        self.last = Some((key, at));
+        let tile = &mut self.tiles[at];
         if heights[1] < tile.ground[0] - tallest || heights[0] > tile.ground[1] + tallest {
             return None;
         }
