@@ -38,10 +38,11 @@ fn walk_in(
     balls: Query<(), With<Ball>>,
 ) {
     let on_ground = |at: Vec2| world.height(Vec3::new(at.x, 0.0, at.y)).map(|y| Vec3::new(at.x, y, at.y));
-    let (true, Some(eye), Some(middle)) = (balls.is_empty(), on_ground(Vec2::ZERO), on_ground(CLEARING)) else {
+    let (true, Some(eye), Some(middle)) = (balls.is_empty(), on_ground(Vec2::new(11.0, 0.0)), on_ground(CLEARING))
+    else {
         return;
     };
-    **camera = Transform::from_translation(eye + 9.0 * Vec3::Y).looking_at(middle + 4.0 * Vec3::Y, Vec3::Y);
+    **camera = Transform::from_translation(eye + 5.0 * Vec3::Y).looking_at(middle + 4.0 * Vec3::Y, Vec3::Y);
     let (ball, red) = (meshes.add(Sphere::new(1.2)), materials.add(Color::srgb(0.75, 0.18, 0.1)));
     for (away, above) in [(0.0, 3.0), (-14.0, 0.9), (19.0, 0.9)] {
         let Some(at) = on_ground(CLEARING + Vec2::new(away, 0.4 * away)) else { continue };

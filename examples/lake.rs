@@ -29,11 +29,7 @@ fn main() {
         .run();
 }
 
-fn setup(
-    mut commands: Commands,
-    mut meshes: ResMut<Assets<Mesh>>,
-    mut materials: ResMut<Assets<StandardMaterial>>,
-) {
+fn setup(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>, mut materials: ResMut<Assets<StandardMaterial>>) {
     let valley = Fractal { wavelength: 1500.0, amplitude: 210.0, octaves: 12.0, gain: 0.44, seed: 9, ..default() };
     let shores = Forest { level: f64::from(LEVEL), shore: 1.5, ..default() };
     let woods = Trees { forest: shores, ..default() };
@@ -41,7 +37,12 @@ fn setup(
     // A basin, in which the water stands seven metres deep.
     let basin = Edit { shape: Shape::Disc(Disc { radius: 90.0 }), mode: Mode::Flatten, falloff: 160.0, ..default() };
     commands.spawn((Stamp(basin), Transform::from_xyz(60.0, LEVEL - 7.0, -110.0)));
-    let lake = Water { waves: Waves::Sines(Sines { wavelength: 5.0, amplitude: 0.035, ..default() }), optics: CLEAR_LAKE, ripples: 2e-5, ..default() };
+    let lake = Water {
+        waves: Waves::Sines(Sines { wavelength: 5.0, amplitude: 0.035, ..default() }),
+        optics: CLEAR_LAKE,
+        ripples: 2e-5,
+        ..default()
+    };
     commands.spawn((lake, Transform::from_xyz(0.0, LEVEL, 0.0)));
     let evening = Transform::default().looking_to(-towards_sun(2.6, 0.4), Vec3::Y);
     commands.spawn((DirectionalLight { shadow_maps_enabled: true, ..default() }, Sunlight, evening));

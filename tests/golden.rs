@@ -6,7 +6,8 @@ use std::path::PathBuf;
 
 use bevy::prelude::*;
 use bevy_horizon::prelude::*;
-use bevy_horizon::scene::WorldLoaded;
+use bevy_horizon::scene::{WorldLoaded, WorldSun};
+use bevy_horizon::world::towards_sun;
 use flip_rs::{DEFAULT_PPD, RgbImage as FlipImage, ldr_flip};
 use image::RgbaImage;
 
@@ -48,9 +49,11 @@ pub fn compare(name: &str, picture: &RgbaImage) {
     assert!(mean <= TOLERANCE, "{name}: mean FLIP {mean:.4}; compare {} with {}", actual.display(), golden.display());
 }
 
-/// A world file, from its own viewpoint, with meshes in it.
-fn world_picture(file: &str) -> RgbaImage {
+/// A world file, from its own viewpoint, with meshes in it; under another sun, where one is given, by azimuth and elevation.
+fn world_picture(file: &str, sun: Option<[f32; 2]>) -> RgbaImage {
     let mut stage = Stage::new(480, 270);
+    // Waves and wind stand still.
+    stage.world().resource_mut::<Time<Virtual>>().pause();
     let asset = format!("worlds/{file}.ron");
     let handle = stage.world().resource::<AssetServer>().load::<WorldFile>(asset);
     stage.world().spawn(HorizonWorld(handle.clone()));
@@ -70,6 +73,12 @@ fn world_picture(file: &str) -> RgbaImage {
     let rotation = Quat::from_rotation_y(-file.view.heading) * Quat::from_rotation_x(file.view.pitch);
     let eye = Vec3::new(x, ground + file.view.above_ground, z);
     stage.look(Transform::from_translation(eye).with_rotation(rotation));
+    if let Some([azimuth, elevation]) = sun {
+        let mut suns = stage.world().query_filtered::<&mut Transform, With<WorldSun>>();
+        for mut transform in suns.iter_mut(stage.world()) {
+            transform.look_to(-towards_sun(azimuth, elevation), Vec3::Y);
+        }
+    }
     let mesh = stage.world().resource_mut::<Assets<Mesh>>().add(Sphere::new(12.0));
     let material = stage.world().resource_mut::<Assets<StandardMaterial>>().add(Color::srgb(0.8, 0.15, 0.1));
     for i in 0..5 {
@@ -84,20 +93,35 @@ fn world_picture(file: &str) -> RgbaImage {
 
 #[test]
 fn golden_alpine() {
-    compare("alpine", &world_picture("alpine"));
+    compare("alpine", &world_picture("alpine", None));
 }
 
 #[test]
 fn golden_mesas() {
-    compare("mesas", &world_picture("mesas"));
+    compare("mesas", &world_picture("mesas", None));
 }
 
 #[test]
 fn golden_islands() {
-    compare("islands", &world_picture("islands"));
+    compare("islands", &world_picture("islands", None));
 }
 
 #[test]
 fn golden_fault() {
-    compare("fault", &world_picture("fault"));
+    compare("fault", &world_picture("fault", None));
+}
+
+#[test]
+fn golden_islands_at_a_low_sun() {
+    compare("islands_low_sun", &world_picture("islands", Some([1.25, 0.09])));
+}
+
+#[test]
+fn golden_forest() {
+    compare("forest", &world_picture("forest", None));
+}
+
+#[test]
+fn golden_forest_at_a_low_sun() {
+    compare("forest_low_sun", &world_picture("forest", Some([2.6, 0.12])));
 }

@@ -9,21 +9,20 @@ use bevy::asset::{AssetLoadError, AssetLoadFailedEvent, AssetLoader, LoadContext
 use bevy::light::{CascadeShadowConfig, CascadeShadowConfigBuilder};
 use bevy::prelude::*;
 use horizon_field::FieldError;
+use horizon_field::Place;
 use horizon_field::field::HeightImage;
 use horizon_field::field::check::MAX_DEPTH;
 use horizon_field::material::MaterialError;
-use horizon_field::Place;
 use horizon_field::stamp::{Placed, StampError};
-use horizon_field::waves::WavesError;
 use horizon_field::trees::ForestError;
+use horizon_field::waves::WavesError;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::HorizonSystems;
 use crate::world::{
     Atmosphere, CompiledTerrain, Felled, ParamError, Stamp, StampPlace, Sun, Terrain, TerrainError, Trees, TreesError,
-    Water, WaterError, WaterPlace,
-    check_atmosphere, check_params,
+    Water, WaterError, WaterPlace, check_atmosphere, check_params,
 };
 #[cfg(feature = "render")]
 use crate::world::{SkyModel, Sunlight, illuminance};

@@ -232,8 +232,17 @@ pub fn extract_atmospheres(
     }
 }
 
-type Waters<'w, 's> =
-    Query<'w, 's, (&'static CompiledWater, Option<&'static WaterPlace>, &'static GlobalTransform, &'static InheritedVisibility, Option<&'static RenderLayers>)>;
+type Waters<'w, 's> = Query<
+    'w,
+    's,
+    (
+        &'static CompiledWater,
+        Option<&'static WaterPlace>,
+        &'static GlobalTransform,
+        &'static InheritedVisibility,
+        Option<&'static RenderLayers>,
+    ),
+>;
 
 /// Water is drawn only where the world is: after [`extract_world`].
 pub fn extract_waters(mut world: ResMut<ExtractedWorld>, mut seas: ResMut<ExtractedSeas>, waters: Extract<Waters>) {

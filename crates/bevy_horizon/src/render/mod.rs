@@ -88,7 +88,10 @@ impl Plugin for HorizonRenderPlugin {
             .init_resource::<view::HorizonViews>()
             .add_systems(
                 ExtractSchedule,
-                ((extract::extract_world, extract::extract_waters, extract::extract_cameras).chain(), truth::extract_truths),
+                (
+                    (extract::extract_world, extract::extract_waters, extract::extract_cameras).chain(),
+                    truth::extract_truths,
+                ),
             )
             .add_systems(ExtractSchedule, waves::extract_water_time)
             .add_systems(
@@ -98,7 +101,9 @@ impl Plugin for HorizonRenderPlugin {
             .add_systems(
                 Render,
                 (
-                    (passes::read_depth, passes::copy_depth).after(prepare_view_targets).in_set(RenderSystems::PrepareViews),
+                    (passes::read_depth, passes::copy_depth)
+                        .after(prepare_view_targets)
+                        .in_set(RenderSystems::PrepareViews),
                     (
                         cache::prepare_caches,
                         trees::prepare_groves,
@@ -130,7 +135,10 @@ impl Plugin for HorizonRenderPlugin {
             )
             .add_systems(
                 RenderGraph,
-                (cache::fill_caches, air::fill_airs, waves::fill_seas).chain().in_set(RenderGraphSystems::Render).before(camera_driver),
+                (cache::fill_caches, air::fill_airs, waves::fill_seas)
+                    .chain()
+                    .in_set(RenderGraphSystems::Render)
+                    .before(camera_driver),
             );
         passes::add_ground(render_app);
     }

@@ -118,7 +118,9 @@ fn distance(water: &ExtractedWater, eye: Vec3) -> f32 {
     match water.water.outline {
         WaterOutline::Endless => 0.0,
         WaterOutline::Disc(WaterDisc { radius }) => (from.length() - radius).max(0.0),
-        WaterOutline::Rectangle(WaterRectangle { half }) => (from.abs() - Vec2::from_array(half)).max(Vec2::ZERO).length(),
+        WaterOutline::Rectangle(WaterRectangle { half }) => {
+            (from.abs() - Vec2::from_array(half)).max(Vec2::ZERO).length()
+        }
     }
 }
 

@@ -39,11 +39,11 @@ pub use sun::Sun;
 pub(crate) use sunlight::turn_suns;
 pub use sunlight::{Sunlight, TimeOfDay, towards_sun};
 pub use terrain::{HeightImages, Terrain};
-pub use water::{CompiledWater, Water, WaterDisc, WaterError, WaterOutline, WaterPlace, WaterRectangle, WaterRejected};
-pub(crate) use water::{compile_waters, forget_water};
 pub use trees::{CompiledTrees, Felled, Trees, TreesError, TreesRejected};
 pub(crate) use trees::{compile_trees, forget_grown, forget_trees};
-#[cfg(feature = "render")]
-pub(crate) use woods::{Woods, WoodsChange};
+pub use water::{CompiledWater, Water, WaterDisc, WaterError, WaterOutline, WaterPlace, WaterRectangle, WaterRejected};
+pub(crate) use water::{compile_waters, forget_water};
 pub use water_time::WaterTime;
 pub(crate) use water_time::advance_water;
+#[cfg(feature = "render")]
+pub(crate) use woods::{Woods, WoodsChange};

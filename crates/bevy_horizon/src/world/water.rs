@@ -46,13 +46,7 @@ pub struct Water {
 
 impl Default for Water {
     fn default() -> Self {
-        Self {
-            outline: default(),
-            waves: default(),
-            optics: default(),
-            foam: 1.0,
-            ripples: 0.002,
-        }
+        Self { outline: default(), waves: default(), optics: default(), foam: 1.0, ripples: 0.002 }
     }
 }
 

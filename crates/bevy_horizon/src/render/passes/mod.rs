@@ -41,8 +41,8 @@ pub use self::geometry::{GeometryPipelines, ViewGeometry, bind_geometry, prepare
 pub use self::pipelines::PassPipelines;
 use self::pipelines::{Pass, PassKey, Variant};
 pub use self::shade::{ShadePipelines, ViewShade, bind_shade, prepare_shade};
-pub use self::water::{ViewWater, WaterPipelines, bind_waters, copy_depth, prepare_waters};
 pub use self::trees::{TreePipelines, ViewTrees, bind_trees, prepare_trees};
+pub use self::water::{ViewWater, WaterPipelines, bind_waters, copy_depth, prepare_waters};
 use super::air::{AirTables, ViewAir};
 use super::cache::Caches;
 use super::extract::ExtractedHorizonCamera;

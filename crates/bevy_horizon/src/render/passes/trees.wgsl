@@ -4,7 +4,10 @@
 
 const PI: f32 = 3.14159265;
 // Of a pixel's normal, how much is the crown's as a whole: leaves are too small to be lit one by one.
-const SMOOTH: f32 = 0.4;
+const SMOOTH: f32 = 0.25;
+// Leaves within a clump, as a part of the foliage's period; how much darker and lighter than the mean they are.
+const LEAF: f32 = 0.14;
+const MOTTLE: f32 = 3.2;
 
 struct Tree {
     @location(0) colour: vec4<f32>,
@@ -102,8 +105,11 @@ fn bark_of(hit: PlantHit, p: vec3<f32>) -> Bark {
     var normal = mix(here, whole, max(SMOOTH, far));
     normal += 0.5 * far * plant_ground_normal(plant);
     let albedo = mix(plant_forest.species[species].young, plant_forest.species[species].old, plant_tint(plant));
-    let open = 1.0 - 0.6 * plant_sunk(solid, p);
-    return Bark(normal / max(length(normal), 1e-20), albedo, plant_forest.species[species].translucency, open, out);
+    // Leaves and the gaps between them, in the mean of a pixel.
+    let leaves = plant_leaves(solid, plant_own(solid, p) / LEAF, clamp(log2(width / (LEAF * texel)), 0.0, PLANT_COARSEST));
+    let mottle = clamp(1.0 + MOTTLE * (leaves - plant_forest.mean), 0.3, 2.0);
+    let open = 1.0 - 0.75 * plant_sunk(solid, p);
+    return Bark(normal / max(length(normal), 1e-20), albedo * mottle, plant_forest.species[species].translucency, open, out);
 }
 
 // The sun on a plant, less what Bevy already has of it.
