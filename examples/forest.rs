@@ -1,6 +1,7 @@
 //! A walk in the woods: a world file with plants, balls among them, and a clearing that a stamp keeps free, around a ball that hangs in
 //! the sun. Of the plants around the first ball every other one is felled.
 use bevy::camera::Exposure;
+use bevy::math::Vec3Swizzles;
 use bevy::prelude::*;
 use bevy_horizon::prelude::*;
 use bevy_horizon::stamp::{Disc, Mode, Shape};
@@ -48,6 +49,11 @@ fn walk_in(
         let Some(at) = on_ground(CLEARING + Vec2::new(away, 0.4 * away)) else { continue };
         let at = Transform::from_translation(at + above * Vec3::Y);
         commands.spawn((Ball, Mesh3d(ball.clone()), MeshMaterial3d(red.clone()), at));
+    }
+    // Nothing stands before the camera.
+    let before = Rect::from_center_half_size(eye.xz() - 6.0 * Vec2::Y, Vec2::new(7.0, 10.0));
+    for plant in world.trees_in(before).unwrap_or_default() {
+        forest.fell(plant.id);
     }
     let around = Rect::from_center_half_size(CLEARING - Vec2::new(14.0, 5.6), Vec2::splat(14.0));
     match world.trees_in(around) {

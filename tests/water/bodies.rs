@@ -8,6 +8,7 @@ use bevy::render::RenderApp;
 use bevy::render::render_resource::PipelineCache;
 use bevy_horizon::prelude::*;
 use bevy_horizon::render::waves::{MOST_SEAS, SeaTiles};
+use horizon_field::field::Fractal;
 use horizon_field::waves::{CASCADES, Sines};
 
 use super::{Eye, FOV, NEAR, Stage, accepted, answers, finite, settle, stage, still};
@@ -64,6 +65,27 @@ fn two_lakes_lie_at_their_levels_within_their_outlines() {
         assert!(heights[0].is_some_and(|h| h.abs() < 0.5) && heights[1].is_some_and(|h| (h - 5.0).abs() < 0.5));
         assert_eq!(heights[2], None);
     }
+}
+
+#[test]
+fn a_masked_lake_is_where_its_field_is_above_nothing() {
+    let field: Field = Fractal { wavelength: 30.0, amplitude: 1.0, octaves: 2.0, seed: 3, ..default() }.into();
+    let mask = WaterMask { half: [20.0; 2], field, ..default() };
+    let mut stage = stage(SIZE, Water { outline: WaterOutline::Mask(mask), ..disc(1.0) });
+    let eye = Eye::down(Vec3::Y * 60.0, FOV, SIZE);
+    eye.put(&mut stage);
+    settle(&mut stage);
+    let depth = stage.depth();
+    let places: Vec<Vec3> = (0..eye.pixels()).filter_map(|k| eye.on_plane(eye.centre(k), 0.0)).collect();
+    assert_eq!(places.len(), eye.pixels());
+    let answers = answers(&mut stage, places, 0.0);
+    let wrong = (0..eye.pixels()).filter(|k| (depth[*k] > 0.0) != answers[*k].is_some()).count();
+    let count = answers.iter().flatten().count();
+    println!("{count} of {} pixels are water, {wrong} are not as answered", eye.pixels());
+    assert!(count > 300 && count < eye.pixels() * 9 / 10, "{count}");
+    // On the very outline single precision decides.
+    assert!(wrong < 5, "{wrong}");
+    assert!(finite(&stage.colour()));
 }
 
 #[test]

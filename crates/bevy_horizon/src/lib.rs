@@ -59,7 +59,7 @@ pub mod prelude {
     pub use crate::scene::{HorizonWorld, WorldFile};
     pub use crate::world::{
         Atmosphere, Felled, SkyGradient, SkyModel, Stamp, StampPlace, Sun, Sunlight, Terrain, TerrainMaterial,
-        TimeOfDay, Trees, Water, WaterDisc, WaterOutline, WaterRectangle, WaterTime, WorldOrigin,
+        TimeOfDay, Trees, Water, WaterDisc, WaterMask, WaterOutline, WaterRectangle, WaterTime, WorldOrigin,
     };
     pub use crate::{HorizonPlugins, HorizonSystems};
     pub use horizon_field::waves::Waves;

@@ -21,8 +21,8 @@ use thiserror::Error;
 
 use crate::HorizonSystems;
 use crate::world::{
-    Atmosphere, CompiledTerrain, Felled, ParamError, Stamp, StampPlace, Sun, Terrain, TerrainError, Trees, TreesError,
-    Water, WaterError, WaterPlace, check_atmosphere, check_params,
+    Atmosphere, CompiledTerrain, Felled, HeightImages, ParamError, Stamp, StampPlace, Sun, Terrain, TerrainError,
+    Trees, TreesError, Water, WaterError, WaterOutline, WaterPlace, check_atmosphere, check_params,
 };
 #[cfg(feature = "render")]
 use crate::world::{SkyModel, Sunlight, illuminance};
@@ -171,6 +171,20 @@ impl WorldFile {
         options().to_string_pretty(self, ron::ser::PrettyConfig::default().struct_names(false))
     }
 
+    /// The images that its fields name.
+    fn image_paths(&self) -> Vec<String> {
+        let ground = self
+            .terrain
+            .iter()
+            .flat_map(|terrain| terrain.field.image_paths().into_iter().chain(terrain.material.image_paths()));
+        let grown = self.trees.iter().flat_map(|trees| [&trees.forest.density, &trees.forest.species_of]);
+        let lakes = self.waters.iter().filter_map(|placed| match &placed.water.outline {
+            WaterOutline::Mask(mask) => Some(&mask.field),
+            _ => None,
+        });
+        ground.chain(grown.chain(lakes).flat_map(|field| field.image_paths())).collect()
+    }
+
     fn check(&self) -> Result<(), TerrainError> {
         if let Some(terrain) = &self.terrain {
             terrain.field.check()?;
@@ -230,7 +244,7 @@ fn line_of(text: &str, error: &TerrainError) -> Option<usize> {
         TerrainError::Material(MaterialError::TooManyLayers { .. }) => ("layers", None),
         TerrainError::Field(error)
         | TerrainError::Stamp(StampError::Param(error))
-        | TerrainError::Water(WaterError::Waves(WavesError::Param(error)))
+        | TerrainError::Water(WaterError::Waves(WavesError::Param(error)) | WaterError::Mask(error))
         | TerrainError::Trees(TreesError::Forest(ForestError::Param(error) | ForestError::Field { error, .. }))
         | TerrainError::Material(MaterialError::Value(error) | MaterialError::Mask { source: error, .. }) => {
             match error {
@@ -279,20 +293,24 @@ impl AssetLoader for WorldLoader {
             WorldFileError::Syntax { line, column: 1, message: "not UTF-8 text".into() }
         })?;
         let mut world = WorldFile::from_ron(&text)?;
-        if let Some(terrain) = &mut world.terrain {
-            let mut images = BTreeMap::new();
-            let forest = world.trees.iter().flat_map(|trees| [&trees.forest.density, &trees.forest.species_of]);
-            let grown = forest.flat_map(|field| field.image_paths());
-            for path in terrain.field.image_paths().into_iter().chain(terrain.material.image_paths()).chain(grown) {
-                if images.contains_key(&path) {
-                    continue;
-                }
-                let line = text.lines().position(|line| line.contains(&path)).map(|at| at + 1);
-                let failed = |reason: String| WorldFileError::Image { line, path: path.clone(), reason };
-                let bytes = context.read_asset_bytes(path.clone()).await.map_err(|error| failed(error.to_string()))?;
-                images.insert(path.clone(), HeightImage::from_png(&bytes).map_err(failed)?);
+        let mut images = BTreeMap::new();
+        for path in world.image_paths() {
+            if images.contains_key(&path) {
+                continue;
             }
-            terrain.images = images.into_iter().collect();
+            let line = text.lines().position(|line| line.contains(&path)).map(|at| at + 1);
+            let failed = |reason: String| WorldFileError::Image { line, path: path.clone(), reason };
+            let bytes = context.read_asset_bytes(path.clone()).await.map_err(|error| failed(error.to_string()))?;
+            images.insert(path.clone(), HeightImage::from_png(&bytes).map_err(failed)?);
+        }
+        let images: HeightImages = images.into_iter().collect();
+        for PlacedWater { water, .. } in &mut world.waters {
+            if let WaterOutline::Mask(mask) = &mut water.outline {
+                mask.images = images.clone();
+            }
+        }
+        if let Some(terrain) = &mut world.terrain {
+            terrain.images = images;
             CompiledTerrain::new(terrain)
                 .map_err(|source| WorldFileError::Value { line: line_of(&text, &source), source })?;
             if let Some(trees) = &world.trees {

@@ -51,7 +51,7 @@ impl HorizonQuery<'_, '_> {
             let middle = at.map_or_else(|| origin.place(transform.translation()), |at| at.0);
             let [x, _, z] = place.minus(&middle);
             let level = middle.minus(&origin.0)[1];
-            compiled.water.outline.contains([x, z]).then_some((entity, compiled, level, on_tiles(&place)))
+            compiled.contains([x, z]).then_some((entity, compiled, level, on_tiles(&place)))
         })
     }
 

@@ -266,6 +266,7 @@ pub fn extract_waters(mut world: ResMut<ExtractedWorld>, mut seas: ResMut<Extrac
         });
         world.waters.push(ExtractedWater {
             water: compiled.water.clone(),
+            mask: compiled.mask.clone(),
             sea,
             translation: place.map_or(transform.translation(), |place| origin.position(&place.0)),
             layers: layers.cloned().unwrap_or_default(),

@@ -74,6 +74,7 @@ impl Plugin for HorizonRenderPlugin {
             .init_resource::<passes::ShadePipelines>()
             .init_resource::<passes::WaterPipelines>()
             .init_resource::<water::HorizonWaters>()
+            .init_resource::<water::WaterMasks>()
             .init_resource::<waves::ExtractedSeas>()
             .init_resource::<passes::TreePipelines>()
             .init_resource::<waves::SeaClock>()

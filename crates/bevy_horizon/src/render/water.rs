@@ -5,7 +5,10 @@ use std::sync::Arc;
 use bevy::camera::visibility::RenderLayers;
 use bevy::math::Vec3Swizzles;
 use bevy::prelude::*;
-use bevy::render::render_resource::{BindingResource, DynamicUniformBuffer, ShaderType};
+use bevy::render::render_resource::{
+    BindingResource, DynamicUniformBuffer, Extent3d, ShaderType, TextureDataOrder, TextureDescriptor, TextureDimension,
+    TextureFormat, TextureUsages, TextureView, TextureViewDescriptor, TextureViewDimension,
+};
 use bevy::render::renderer::{RenderDevice, RenderQueue};
 use bevy::render::view::ExtractedView;
 use horizon_field::CELL;
@@ -13,7 +16,7 @@ use horizon_field::waves::{CASCADES, Sea};
 use horizon_light::water::WaterOptics;
 
 use super::extract::{ExtractedHorizonCamera, ExtractedWorld};
-use crate::world::{Atmosphere, Water, WaterDisc, WaterOutline, WaterRectangle};
+use crate::world::{Atmosphere, MASK_TEXELS, MaskTable, Water, WaterDisc, WaterMask, WaterOutline, WaterRectangle};
 
 /// How many bodies of water a view sees.
 pub const BODIES: usize = 8;
@@ -24,6 +27,8 @@ pub struct ExtractedWater {
     /// Its waves, by their index among the seas of this frame.
     pub sea: Option<(usize, Arc<Sea>)>,
     pub translation: Vec3,
+    /// The table of its outline, where that is a mask.
+    pub(crate) mask: Option<Arc<MaskTable>>,
     pub layers: RenderLayers,
 }
 
@@ -68,6 +73,7 @@ pub struct WaterUniform {
     pub centre: Vec2,
     pub half: Vec2,
     pub outline: u32,
+    pub mask: u32,
     pub above: f32,
     pub bound: f32,
     pub slope: f32,
@@ -88,7 +94,12 @@ pub struct WatersUniform {
 
 impl WatersUniform {
     /// What a view sees: the nearest bodies, by their level and outline.
-    pub fn new(world: &ExtractedWorld, camera: &ExtractedHorizonCamera, view: &ExtractedView) -> Self {
+    pub fn new(
+        world: &ExtractedWorld,
+        masks: &WaterMasks,
+        camera: &ExtractedHorizonCamera,
+        view: &ExtractedView,
+    ) -> Self {
         let eye = view.world_from_view.translation();
         let mut bodies: Vec<_> = world
             .waters
@@ -100,7 +111,7 @@ impl WatersUniform {
         let sun_radius = world.risen_sun().map_or(Atmosphere::EARTH_SUN_RADIUS, |(_, radius)| radius);
         let mut uniform = Self { sun_radius, ..default() };
         for (body, (_, water)) in uniform.bodies.iter_mut().zip(bodies) {
-            *body = WaterUniform::new(water, world, eye);
+            *body = WaterUniform::new(water, world, masks, eye);
             uniform.count += 1;
         }
         uniform
@@ -115,28 +126,30 @@ impl WatersUniform {
 /// How far the eye is from a body, along the plane.
 fn distance(water: &ExtractedWater, eye: Vec3) -> f32 {
     let from = (eye - water.translation).xz();
-    match water.water.outline {
+    match &water.water.outline {
         WaterOutline::Endless => 0.0,
-        WaterOutline::Disc(WaterDisc { radius }) => (from.length() - radius).max(0.0),
-        WaterOutline::Rectangle(WaterRectangle { half }) => {
-            (from.abs() - Vec2::from_array(half)).max(Vec2::ZERO).length()
+        WaterOutline::Disc(WaterDisc { radius }) => (from.length() - *radius).max(0.0),
+        WaterOutline::Rectangle(WaterRectangle { half }) | WaterOutline::Mask(WaterMask { half, .. }) => {
+            (from.abs() - Vec2::from_array(*half)).max(Vec2::ZERO).length()
         }
     }
 }
 
 impl WaterUniform {
-    fn new(water: &ExtractedWater, world: &ExtractedWorld, eye: Vec3) -> Self {
+    fn new(water: &ExtractedWater, world: &ExtractedWorld, masks: &WaterMasks, eye: Vec3) -> Self {
         let body = &water.water;
-        let (outline, half) = match body.outline {
+        let (outline, half) = match &body.outline {
             WaterOutline::Endless => (0, Vec2::ZERO),
-            WaterOutline::Disc(WaterDisc { radius }) => (1, Vec2::splat(radius)),
-            WaterOutline::Rectangle(WaterRectangle { half }) => (2, Vec2::from_array(half)),
+            WaterOutline::Disc(WaterDisc { radius }) => (1, Vec2::splat(*radius)),
+            WaterOutline::Rectangle(WaterRectangle { half }) => (2, Vec2::from_array(*half)),
+            WaterOutline::Mask(WaterMask { half, .. }) => (3, Vec2::from_array(*half)),
         };
         let mut uniform = Self {
             optics: OpticsUniform::new(&body.optics),
             centre: (water.translation - eye).xz(),
             half,
             outline,
+            mask: water.mask.as_ref().map_or(0, |mask| masks.layer(mask)),
             above: eye.y - water.translation.y,
             foam: body.foam,
             ripples: body.ripples,
@@ -187,5 +200,53 @@ impl HorizonWaters {
 
     pub fn binding(&self) -> Option<BindingResource<'_>> {
         self.0.binding()
+    }
+}
+
+/// The masks of all bodies, a layer each; a single texel where there is none.
+#[derive(Resource, Default)]
+pub struct WaterMasks {
+    of: Vec<Arc<MaskTable>>,
+    view: Option<TextureView>,
+}
+
+impl WaterMasks {
+    /// Makes the texture, where the masks are others than those that it holds.
+    pub fn prepare(&mut self, world: &ExtractedWorld, device: &RenderDevice, queue: &RenderQueue) {
+        let masks: Vec<_> = world.waters.iter().filter_map(|water| water.mask.clone()).collect();
+        let same = masks.len() == self.of.len() && masks.iter().zip(&self.of).all(|(a, b)| Arc::ptr_eq(a, b));
+        if self.view.is_some() && same {
+            return;
+        }
+        let side = if masks.is_empty() { 1 } else { MASK_TEXELS as u32 };
+        let mut values: Vec<f32> = masks.iter().flat_map(|mask| mask.values.iter().copied()).collect();
+        values.resize((side * side) as usize * masks.len().max(1), 1.0);
+        let texture = device.create_texture_with_data(
+            queue,
+            &TextureDescriptor {
+                label: Some("horizon_water_masks"),
+                size: Extent3d { width: side, height: side, depth_or_array_layers: masks.len().max(1) as u32 },
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: TextureDimension::D2,
+                format: TextureFormat::R32Float,
+                usage: TextureUsages::TEXTURE_BINDING,
+                view_formats: &[],
+            },
+            TextureDataOrder::LayerMajor,
+            bytemuck::cast_slice(&values),
+        );
+        let dimension = Some(TextureViewDimension::D2Array);
+        self.view = Some(texture.create_view(&TextureViewDescriptor { dimension, ..default() }));
+        self.of = masks;
+    }
+
+    fn layer(&self, mask: &Arc<MaskTable>) -> u32 {
+        self.of.iter().position(|other| Arc::ptr_eq(mask, other)).unwrap_or(0) as u32
+    }
+
+    /// What the pass binds.
+    pub fn view(&self) -> Option<&TextureView> {
+        self.view.as_ref()
     }
 }

@@ -13,6 +13,7 @@ mod sunlight;
 mod terrain;
 mod trees;
 mod water;
+mod water_mask;
 mod water_time;
 mod woods;
 
@@ -43,6 +44,9 @@ pub use trees::{CompiledTrees, Felled, Trees, TreesError, TreesRejected};
 pub(crate) use trees::{compile_trees, forget_grown, forget_trees};
 pub use water::{CompiledWater, Water, WaterDisc, WaterError, WaterOutline, WaterPlace, WaterRectangle, WaterRejected};
 pub(crate) use water::{compile_waters, forget_water};
+pub use water_mask::WaterMask;
+#[cfg(feature = "render")]
+pub(crate) use water_mask::{MASK_TEXELS, MaskTable};
 pub use water_time::WaterTime;
 pub(crate) use water_time::advance_water;
 #[cfg(feature = "render")]

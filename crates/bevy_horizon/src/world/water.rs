@@ -3,13 +3,14 @@
 use std::sync::Arc;
 
 use bevy::prelude::*;
-use horizon_field::Place;
 use horizon_field::field::Param;
 use horizon_field::waves::{Sea, SeaSurface, Waves, WavesError};
+use horizon_field::{FieldError, Place};
 use horizon_light::water::WaterOptics;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use super::water_mask::{MaskTable, WaterMask};
 use super::{ParamError, check_params};
 
 /// A body of water: an endless sea, or a lake within an outline. Where the ground stands higher, it is the shore.
@@ -56,7 +57,7 @@ impl Default for Water {
 pub struct WaterPlace(pub Place);
 
 /// How far a body of water reaches, around its entity.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Reflect, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Reflect, Serialize, Deserialize)]
 #[reflect(Default, Clone, PartialEq)]
 pub enum WaterOutline {
     /// To the horizon.
@@ -66,6 +67,8 @@ pub enum WaterOutline {
     Disc(WaterDisc),
     /// A rectangle along the axes.
     Rectangle(WaterRectangle),
+    /// Where a field is above 0.
+    Mask(WaterMask),
 }
 
 /// A round body of water.
@@ -100,17 +103,6 @@ impl Default for WaterRectangle {
     }
 }
 
-impl WaterOutline {
-    /// Whether a point is within, relative to its middle.
-    pub fn contains(&self, [x, z]: [f64; 2]) -> bool {
-        match *self {
-            Self::Endless => true,
-            Self::Disc(WaterDisc { radius }) => x * x + z * z <= f64::from(radius).powi(2),
-            Self::Rectangle(WaterRectangle { half }) => x.abs() <= half[0].into() && z.abs() <= half[1].into(),
-        }
-    }
-}
-
 /// Why a body of water was refused.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
@@ -121,6 +113,9 @@ pub enum WaterError {
     /// Its waves make no sense.
     #[error(transparent)]
     Waves(#[from] WavesError),
+    /// The field of its outline makes no sense.
+    #[error(transparent)]
+    Mask(#[from] FieldError),
 }
 
 impl Water {
@@ -134,6 +129,10 @@ impl Water {
             WaterOutline::Endless => {}
             WaterOutline::Disc(disc) => check_params(&format!("{path}.outline.Disc"), disc)?,
             WaterOutline::Rectangle(rectangle) => check_params(&format!("{path}.outline.Rectangle"), rectangle)?,
+            WaterOutline::Mask(mask) => {
+                check_params(&format!("{path}.outline.Mask"), mask)?;
+                mask.field.check()?;
+            }
         }
         self.waves.check(&format!("{path}.waves"))?;
         Ok(())
@@ -147,6 +146,37 @@ pub struct CompiledWater {
     pub(crate) water: Arc<Water>,
     /// Its waves; `None` where it is still.
     pub(crate) surface: Option<Arc<SeaSurface>>,
+    /// The table of its outline, where that is a mask.
+    pub(crate) mask: Option<Arc<MaskTable>>,
+}
+
+impl CompiledWater {
+    /// Checks it, and makes it ready; its waves are those of another where they are the same.
+    fn new<'a>(water: &Water, known: impl Iterator<Item = &'a Self>) -> Result<Self, WaterError> {
+        water.check("water")?;
+        let surface = match { known }.find(|other| other.water.waves == water.waves) {
+            Some(other) => other.surface.clone(),
+            None => {
+                let sea = Sea::new(&water.waves)?;
+                (!sea.is_still()).then(|| Arc::new(SeaSurface::new(Arc::new(sea))))
+            }
+        };
+        let mask = match &water.outline {
+            WaterOutline::Mask(mask) => Some(Arc::new(MaskTable::new(mask)?)),
+            _ => None,
+        };
+        Ok(Self { water: Arc::new(water.clone()), surface, mask })
+    }
+
+    /// Whether a place is within its outline, relative to its middle.
+    pub(crate) fn contains(&self, [x, z]: [f64; 2]) -> bool {
+        match &self.water.outline {
+            WaterOutline::Endless => true,
+            WaterOutline::Disc(WaterDisc { radius }) => x * x + z * z <= f64::from(*radius).powi(2),
+            WaterOutline::Rectangle(WaterRectangle { half }) => x.abs() <= half[0].into() && z.abs() <= half[1].into(),
+            WaterOutline::Mask(_) => self.mask.as_ref().is_some_and(|mask| mask.contains([x, z])),
+        }
+    }
 }
 
 /// A body of water was rejected; what was there before stays.
@@ -167,16 +197,8 @@ pub(crate) fn compile_waters(
 ) {
     let mut fresh: Vec<CompiledWater> = Vec::new();
     for (entity, water) in &changed {
-        let same = known.iter().chain(&fresh).find(|other| other.water.waves == water.waves);
-        let surface = match same {
-            Some(other) => Ok(other.surface.clone()),
-            None => Sea::new(&water.waves)
-                .map(|sea| (!sea.is_still()).then(|| Arc::new(SeaSurface::new(Arc::new(sea)))))
-                .map_err(WaterError::from),
-        };
-        match water.check("water").and(surface) {
-            Ok(surface) => {
-                let compiled = CompiledWater { water: Arc::new(water.clone()), surface };
+        match CompiledWater::new(water, known.iter().chain(&fresh)) {
+            Ok(compiled) => {
                 fresh.push(compiled.clone());
                 commands.entity(entity).insert(compiled);
             }

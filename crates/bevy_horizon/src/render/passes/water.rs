@@ -28,7 +28,7 @@ use super::super::extract::{ExtractedHorizonCamera, ExtractedWorld};
 use super::super::shaders::{Source, WaterSky};
 use super::super::uniforms::{AirUniform, ClipmapUniform, GradientUniform, HorizonViewUniform};
 use super::super::view::{HorizonViews, ViewGround, ViewSky};
-use super::super::water::{HorizonWaters, WatersUniform};
+use super::super::water::{HorizonWaters, WaterMasks, WatersUniform};
 use super::super::waves::SeaTiles;
 use super::target::DrawnTarget;
 use crate::camera::DebugView;
@@ -59,6 +59,7 @@ impl Variant {
                 (5, uniform_buffer::<HorizonViewUniform>(true)),
                 (20, uniform_buffer::<WatersUniform>(true)),
                 (24, texture_2d(TextureSampleType::Float { filterable: false })),
+                (25, texture_2d_array(TextureSampleType::Float { filterable: false })),
             ),
         );
         if self.ground {
@@ -184,6 +185,7 @@ pub fn prepare_waters(
     mut commands: Commands,
     mut pipelines: ResMut<WaterPipelines>,
     mut waters: ResMut<HorizonWaters>,
+    mut masks: ResMut<WaterMasks>,
     mut textures: ResMut<TextureCache>,
     world: Res<ExtractedWorld>,
     tiles: Option<Res<SeaTiles>>,
@@ -195,6 +197,9 @@ pub fn prepare_waters(
     views: Views,
 ) {
     waters.clear();
+    if !world.waters.is_empty() {
+        masks.prepare(&world, &device, &queue);
+    }
     for (entity, ground, view, camera, target, depth, msaa) in &views {
         let shown = camera.camera.debug == DebugView::None && world.has_water(&camera.layers);
         let key = keys.get(&view.retained_view_entity).filter(|_| shown);
@@ -202,7 +207,7 @@ pub fn prepare_waters(
             commands.entity(entity).remove::<ViewWater>();
             continue;
         };
-        let uniform = WatersUniform::new(&world, camera, view);
+        let uniform = WatersUniform::new(&world, &masks, camera, view);
         let variant = Variant {
             sky: match &ground.sky {
                 None => WaterSky::Nothing,
@@ -243,6 +248,7 @@ pub fn bind_waters(
     mut views: Query<(&mut ViewWater, &ViewGround, Option<&ViewAir>)>,
     uniforms: Res<HorizonViews>,
     waters: Res<HorizonWaters>,
+    masks: Res<WaterMasks>,
     tiles: Option<Res<SeaTiles>>,
     caches: Res<Caches>,
     cache: Res<PipelineCache>,
@@ -250,12 +256,15 @@ pub fn bind_waters(
 ) {
     for (mut water, ground, air) in &mut views {
         let variant = water.variant;
-        let (Some(view), Some(bodies)) = (uniforms.views.binding(), waters.binding()) else { continue };
+        let (Some(view), Some(bodies), Some(masks)) = (uniforms.views.binding(), waters.binding(), masks.view()) else {
+            continue;
+        };
         let mut entries = DynamicBindGroupEntries::new_with_indices((
             (2, &water.depth.default_view),
             (5, view),
             (20, bodies),
             (24, &water.colour.default_view),
+            (25, masks),
         ))
         .to_vec();
         let buffers = ground.cache.and_then(|index| caches.0.get(index)).map(|cache| &cache.buffers);

@@ -16,8 +16,9 @@ struct WaterBody {
     // Its middle, relative to the eye, and from there to its sides; a disc has its radius in x.
     centre: vec2<f32>,
     half: vec2<f32>,
-    // 0 endless, 1 a disc, 2 a rectangle.
+    // 0 endless, 1 a disc, 2 a rectangle, 3 a rectangle with a mask, and the mask's layer.
     outline: u32,
+    mask: u32,
     // The eye above its level, and the waves above that at most.
     above: f32,
     bound: f32,
@@ -40,6 +41,7 @@ struct Waters {
 }
 
 @group(0) @binding(20) var<uniform> waters: Waters;
+@group(0) @binding(25) var water_masks: texture_2d_array<f32>;
 
 const WATER_STEPS: u32 = 72u;
 // Steps grow with the distance: what is missed that way is less than a pixel high.
@@ -86,12 +88,27 @@ fn outline_interval(body: u32, ray: WaterRay) -> vec2<f32> {
     return vec2<f32>(near, min(max(p.x, q.x), max(p.y, q.y)));
 }
 
+// Whether a body's mask has water at a point within its rectangle: bilinear, as the CPU has it.
+fn in_mask(body: u32, p: vec3<f32>) -> bool {
+    let last = vec2<f32>(textureDimensions(water_masks)) - 1.0;
+    let at = ((p.xz - waters.bodies[body].centre) / waters.bodies[body].half + 1.0) * 0.5 * last;
+    let cell = clamp(floor(at), vec2<f32>(0.0), last - 1.0);
+    let f = at - cell;
+    let i = vec2<i32>(cell);
+    let layer = waters.bodies[body].mask;
+    let low = mix(textureLoad(water_masks, i, layer, 0).x, textureLoad(water_masks, i + vec2<i32>(1, 0), layer, 0).x, f.x);
+    let high = mix(
+        textureLoad(water_masks, i + vec2<i32>(0, 1), layer, 0).x, textureLoad(water_masks, i + vec2<i32>(1, 1), layer, 0).x, f.x);
+    return mix(low, high, f.y) > 0.0;
+}
+
 fn in_outline(body: u32, p: vec3<f32>) -> bool {
     let away = abs(p.xz - waters.bodies[body].centre);
     let half = waters.bodies[body].half;
     switch waters.bodies[body].outline {
         case 0u: { return true; }
         case 1u: { return dot(away, away) <= half.x * half.x; }
+        case 3u: { return all(away <= half) && in_mask(body, p); }
         default: { return all(away <= half); }
     }
 }
@@ -201,7 +218,7 @@ fn meets_water(ray: WaterRay, t_near: f32, t_end: f32, alone: u32) -> Met {
             continue;
         }
         let t = meets_body(i, ray, t_near, end);
-        if (t >= 0.0) {
+        if (t >= 0.0 && (waters.bodies[i].outline != 3u || in_mask(i, water_point(ray, t)))) {
             met = Met(t, i);
             end = t;
         }
