@@ -45,14 +45,15 @@ fn two_lakes_lie_at_their_levels_within_their_outlines() {
                     .into_iter()
                     .find(|i| eye.on_plane(pixel, at[*i].y).is_some_and(|point| inside[*i](point - at[*i])))
             };
-            for i in 0..2 {
+            for (i, middle) in at.iter().enumerate() {
                 // A lake's waves are some centimetres high; a pixel is half a metre wide.
-                let drawn = |k: usize| depth[k] > 0.0 && (eye.point(k, depth[k]).y - at[i].y).abs() < 0.5;
+                let drawn = |k: usize| depth[k] > 0.0 && (eye.point(k, depth[k]).y - middle.y).abs() < 0.5;
                 let wrong = eye.misplaced(drawn, |pixel| lake(pixel) == Some(i));
                 let count = (0..eye.pixels()).filter(|k| drawn(*k)).count();
                 println!("lake {i}, waves {moves}: {count} pixels, {wrong} more than a pixel off");
                 assert!(count > 150 && wrong == 0, "lake {i}, waves {moves}: {count} pixels, {wrong} are wrong");
-                let level = (0..eye.pixels()).filter(|k| drawn(*k)).map(|k| (eye.point(k, depth[k]).y - at[i].y).abs());
+                let level =
+                    (0..eye.pixels()).filter(|k| drawn(*k)).map(|k| (eye.point(k, depth[k]).y - middle.y).abs());
                 let off = level.fold(0.0, f32::max);
                 assert!(moves || off < 1e-3, "lake {i} is {off} m off its level");
             }

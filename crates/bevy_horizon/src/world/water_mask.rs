@@ -31,7 +31,7 @@ pub struct WaterMask {
 
 impl Default for WaterMask {
     fn default() -> Self {
-        Self { half: [100.0; 2], field: Field::Constant(1.0.into()), images: HeightImages::default() }
+        Self { half: [100.0; 2], field: Field::Constant(1.0), images: HeightImages::default() }
     }
 }
 

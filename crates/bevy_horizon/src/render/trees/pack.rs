@@ -132,7 +132,7 @@ mod tests {
         let i = (4096 - (4096 >> (2 * mip))) / 3 + (z >> mip) * (32 >> mip) + (x >> mip);
         let word = words[4 * (BOUNDS + 1) + i];
         let [base, unit] = [0, 1].map(|i| f32::from_bits(words[4 * BOUNDS + i]));
-        (word != 0).then(|| [base + unit * (word & 0xffff) as f32, base + unit * (word >> 16) as f32])
+        (word != 0).then_some([base + unit * (word & 0xffff) as f32, base + unit * (word >> 16) as f32])
     }
 
     #[test]
