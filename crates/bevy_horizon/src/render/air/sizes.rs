@@ -79,7 +79,7 @@ mod tests {
         let read = include_str!("read_tables.wgsl");
         has(read, format!("multiple[(y * {suns}u + x) * {harmonics}u + harmonic]"));
         has(read, format!("multiple[y * {}u + x]", ISOTROPIC[0]));
-        has(horizon_light::models::shaders::SKY_VIEW_COMPUTE, format!("const SKY_VIEW_AZIMUTHS: u32 = {}u;", SKY[0]));
+        has(horizon_light::models::shaders::SKY_VIEW, format!("const SKY_VIEW_AZIMUTHS: u32 = {}u;", SKY[0]));
     }
 
     #[test]
