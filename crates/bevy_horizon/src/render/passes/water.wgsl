@@ -275,7 +275,8 @@ fn seen_from_within(pixel: WaterPixel, position: vec4<f32>, body: u32, met: Met,
             own += enters * (sky_from(out) + sun);
         }
     }
-    return painted(own, colour, share, max(nearest, water_depth_of(pixel, met.t)));
+    // No farther than light goes in water: the air lays its haze over what is far.
+    return painted(own, colour, share, max(nearest, water_depth_of(pixel, min(met.t, 200.0))));
 }
 
 @fragment
