@@ -10,7 +10,7 @@
 //! Kubelka and Munk's, R = y/(1 + y + √(1 + 2y)), y = ⅜ b'/a. Between them y goes over from the one to the other.
 //!
 //! Three lights are scattered into a view ray: the sun's beam; the sky's, taken for a Henyey–Greenstein lobe of mean cosine 0.84
-//! about straight down (two such lobes, folded, are one whose mean cosine is their product); and E_u. The third makes up for what
+//! about straight down (two such lobes, folded, are one whose mean cosine is their product), with its peak cut at [`SKY_PEAK`]; and E_u. The third makes up for what
 //! the ray loses by forward scattering, so that deep water has its radiance whatever share of b goes forward. Each is an
 //! exponential along the ray, and is integrated as such. Against every order of scattering in a half space, what deep water
 //! sends up is at most a fifth off, for b/a of 0.5 to 270 (`tests::body`).

@@ -5,6 +5,7 @@ mod cast;
 mod clearance;
 mod draw;
 mod geometry;
+mod lit;
 mod pipelines;
 mod shade;
 mod target;

@@ -20,7 +20,6 @@ use bevy::render::render_resource::{
 };
 use bevy::render::renderer::{RenderContext, RenderDevice, ViewQuery};
 use bevy::render::view::{ExtractedView, ViewDepthTexture, ViewTarget};
-use bevy::shader::ShaderDefVal;
 
 use super::super::air::AirTables;
 use super::super::cache::Caches;
@@ -29,6 +28,7 @@ use super::super::shaders::Source;
 use super::super::trees::{GroveUniform, Groves, ViewGrove};
 use super::super::uniforms::{AirUniform, ClipmapUniform, HorizonViewUniform};
 use super::super::view::{HorizonViews, ViewGround, ViewSky};
+use super::lit;
 use super::target::DrawnTarget;
 use crate::camera::DebugView;
 
@@ -89,27 +89,22 @@ impl ShadePipelines {
         *self.made.entry((key, variant)).or_insert_with(|| {
             let Variant { deferred, multisampled, air, trees } = variant;
             let shader = Source::Shade { deferred, multisampled, air, trees }.handle();
-            // Bevy's own pipeline, with our text: its definitions and layouts follow the view's features without our knowing them.
+            if !deferred {
+                let layout = variant.layout();
+                let forward = lit::pipeline(bevy, key, "horizon_shade", 2, layout, shader, "shade");
+                return cache.queue_render_pipeline(forward);
+            }
+            // As Bevy's own, for all that is in the G-buffer.
             let mut descriptor = bevy.specialize(key);
             descriptor.label = Some("horizon_shade".into());
             descriptor.layout.truncate(2);
             descriptor.layout.push(variant.layout());
             descriptor.multisample.count = key.msaa_samples();
             descriptor.vertex.shader = shader.clone();
-            descriptor.vertex.entry_point = Some(if deferred { "fullscreen_of_id" } else { "fullscreen" }.into());
+            descriptor.vertex.entry_point = Some("fullscreen_of_id".into());
             let fragment = descriptor.fragment.as_mut().expect("lighting has a fragment shader");
             fragment.shader = shader;
             fragment.entry_point = Some("shade".into());
-            if !deferred {
-                descriptor.depth_stencil = None;
-                let of_deferred =
-                    |def: &ShaderDefVal| matches!(def, ShaderDefVal::Bool(name, _) if name.starts_with("DEFERRED_"));
-                fragment.shader_defs.retain(|def| !of_deferred(def));
-                if multisampled {
-                    fragment.shader_defs.push("MULTISAMPLED".into());
-                }
-                descriptor.vertex.shader_defs.retain(|def| !of_deferred(def));
-            }
             cache.queue_render_pipeline(descriptor)
         })
     }

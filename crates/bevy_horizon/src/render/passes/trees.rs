@@ -15,15 +15,13 @@ use bevy::render::render_resource::binding_types::{
     uniform_buffer, uniform_buffer_sized,
 };
 use bevy::render::render_resource::{
-    BindGroup, BindGroupLayoutDescriptor, CachedRenderPipelineId, CompareFunction, DepthStencilState,
-    DynamicBindGroupEntries, DynamicBindGroupLayoutEntries, Extent3d, PipelineCache, RenderPassDescriptor,
-    SamplerBindingType, ShaderStages, SpecializedRenderPipeline, StoreOp, TextureDescriptor, TextureDimension,
-    TextureSampleType, TextureUsages,
+    BindGroup, BindGroupLayoutDescriptor, CachedRenderPipelineId, DynamicBindGroupEntries,
+    DynamicBindGroupLayoutEntries, Extent3d, PipelineCache, RenderPassDescriptor, SamplerBindingType, ShaderStages,
+    StoreOp, TextureDescriptor, TextureDimension, TextureSampleType, TextureUsages,
 };
 use bevy::render::renderer::{RenderContext, RenderDevice, RenderQueue, ViewQuery};
 use bevy::render::texture::{CachedTexture, TextureCache};
 use bevy::render::view::{ExtractedView, ViewDepthTexture, ViewTarget};
-use bevy::shader::ShaderDefVal;
 
 use super::super::air::AirTables;
 use super::super::cache::Caches;
@@ -32,6 +30,7 @@ use super::super::shaders::Source;
 use super::super::trees::{FoliageTexture, GroveUniform, Groves, ViewGrove};
 use super::super::uniforms::{AirUniform, ClipmapUniform, HorizonViewUniform};
 use super::super::view::{HorizonViews, ViewGround, ViewSky};
+use super::lit;
 use super::target::DrawnTarget;
 use super::tree_motion::{TreeMotion, copy_depth};
 use crate::camera::DebugView;
@@ -88,31 +87,8 @@ impl TreePipelines {
         *self.made.entry((key, variant)).or_insert_with(|| {
             let Variant { multisampled, air } = variant;
             let shader = Source::Trees { multisampled, air }.handle();
-            // As for the ground's light: Bevy's own pipeline, with our text.
-            let mut descriptor = bevy.specialize(key);
-            descriptor.label = Some("horizon_trees".into());
-            descriptor.layout.truncate(2);
-            descriptor.layout.push(variant.layout());
-            descriptor.multisample.count = key.msaa_samples();
-            descriptor.vertex.shader = shader.clone();
-            descriptor.vertex.entry_point = Some("fullscreen".into());
-            descriptor.depth_stencil = Some(DepthStencilState {
-                format: CORE_3D_DEPTH_FORMAT,
-                depth_write_enabled: Some(true),
-                depth_compare: Some(CompareFunction::GreaterEqual),
-                stencil: default(),
-                bias: default(),
-            });
-            let of_deferred =
-                |def: &ShaderDefVal| matches!(def, ShaderDefVal::Bool(name, _) if name.starts_with("DEFERRED_"));
-            descriptor.vertex.shader_defs.retain(|def| !of_deferred(def));
-            let fragment = descriptor.fragment.as_mut().expect("lighting has a fragment shader");
-            fragment.shader = shader;
-            fragment.entry_point = Some("plants".into());
-            fragment.shader_defs.retain(|def| !of_deferred(def));
-            if multisampled {
-                fragment.shader_defs.push("MULTISAMPLED".into());
-            }
+            let mut descriptor = lit::pipeline(bevy, key, "horizon_trees", 2, variant.layout(), shader, "plants");
+            descriptor.depth_stencil = lit::depth();
             cache.queue_render_pipeline(descriptor)
         })
     }

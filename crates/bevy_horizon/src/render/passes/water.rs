@@ -12,15 +12,13 @@ use bevy::render::render_resource::binding_types::{
     texture_depth_2d_multisampled, uniform_buffer,
 };
 use bevy::render::render_resource::{
-    BindGroup, BindGroupLayoutDescriptor, CachedRenderPipelineId, CompareFunction, DepthStencilState,
-    DynamicBindGroupEntries, DynamicBindGroupLayoutEntries, Extent3d, PipelineCache, RenderPassDescriptor,
-    SamplerBindingType, ShaderStages, SpecializedRenderPipeline, StoreOp, TextureDescriptor, TextureDimension,
-    TextureFormat, TextureSampleType, TextureUsages,
+    BindGroup, BindGroupLayoutDescriptor, CachedRenderPipelineId, DynamicBindGroupEntries,
+    DynamicBindGroupLayoutEntries, Extent3d, PipelineCache, RenderPassDescriptor, SamplerBindingType, ShaderStages,
+    StoreOp, TextureDescriptor, TextureDimension, TextureFormat, TextureSampleType, TextureUsages,
 };
 use bevy::render::renderer::{RenderContext, RenderDevice, RenderQueue, ViewQuery};
 use bevy::render::texture::{CachedTexture, TextureCache};
 use bevy::render::view::{ExtractedView, ViewDepthTexture, ViewTarget};
-use bevy::shader::ShaderDefVal;
 
 use super::super::air::ViewAir;
 use super::super::cache::Caches;
@@ -30,6 +28,7 @@ use super::super::uniforms::{AirUniform, ClipmapUniform, GradientUniform, Horizo
 use super::super::view::{HorizonViews, ViewGround, ViewSky};
 use super::super::water::{HorizonWaters, WaterMasks, WatersUniform};
 use super::super::waves::SeaTiles;
+use super::lit;
 use super::target::DrawnTarget;
 use crate::camera::DebugView;
 
@@ -110,31 +109,9 @@ impl WaterPipelines {
     ) -> CachedRenderPipelineId {
         *self.0.entry((key, variant)).or_insert_with(|| {
             let shader = variant.source().handle();
-            // As the ground's light: Bevy's own pipeline, with our text.
-            let mut descriptor = bevy.specialize(key);
-            descriptor.label = Some("horizon_water".into());
-            descriptor.layout.truncate(1);
-            descriptor.layout.push(variant.layout());
-            descriptor.multisample.count = key.msaa_samples();
-            descriptor.vertex.shader = shader.clone();
-            descriptor.vertex.entry_point = Some("fullscreen".into());
-            descriptor.depth_stencil = Some(DepthStencilState {
-                format: CORE_3D_DEPTH_FORMAT,
-                depth_write_enabled: Some(true),
-                depth_compare: Some(CompareFunction::GreaterEqual),
-                stencil: default(),
-                bias: default(),
-            });
-            let of_deferred =
-                |def: &ShaderDefVal| matches!(def, ShaderDefVal::Bool(name, _) if name.starts_with("DEFERRED_"));
-            descriptor.vertex.shader_defs.retain(|def| !of_deferred(def));
+            let mut descriptor = lit::pipeline(bevy, key, "horizon_water", 1, variant.layout(), shader, "water");
+            descriptor.depth_stencil = lit::depth();
             let fragment = descriptor.fragment.as_mut().expect("lighting has a fragment shader");
-            fragment.shader = shader;
-            fragment.entry_point = Some("water".into());
-            fragment.shader_defs.retain(|def| !of_deferred(def));
-            if variant.multisampled {
-                fragment.shader_defs.push("MULTISAMPLED".into());
-            }
             for target in fragment.targets.iter_mut().flatten() {
                 target.blend = None;
             }

@@ -83,7 +83,7 @@ fn added_up(water: &Water<f64>, light: &WaterLight<f64>, depth: f64, view: [f64;
     let source = |t: f64| {
         let z = depth - t * view[1];
         let sun = part(z, light.sun_irradiance[k], light.sun[1], b * lobe(water.anisotropy, nu) + m * rayleigh);
-        let sky_lobe = b * lobe(0.84 * water.anisotropy, view[1]).min(0.47) + m / (4.0 * PI);
+        let sky_lobe = b * lobe(0.84 * water.anisotropy, view[1]).min(SKY_PEAK) + m / (4.0 * PI);
         (sun + part(z, light.sky_irradiance[k], 0.84, sky_lobe)) * libm::exp(-(a + b + m) * t)
     };
     // Light from far away counts only as far as any is left.

@@ -39,6 +39,7 @@ fn twins_share_their_constants() {
     };
     has("WATER_PI", &[core::f64::consts::PI]);
     has("WATER_SKY_COSINE", &[body::SKY_COSINE]);
+    has("WATER_SKY_PEAK", &[body::SKY_PEAK]);
     has("WATER_KIRK", &body::KIRK);
     has("WATER_GATHERED", &[body::GATHERED]);
     has("WATER_MILKY", &[body::MILKY]);
